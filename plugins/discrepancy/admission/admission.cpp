@@ -22,6 +22,7 @@ constexpr double normal_scale = 1.4826;  // deviation of a normal distribution o
 constexpr int stuck_samples = 20;
 
 double median(std::vector<double>& values) {
+  // A median and not a mean square: what is looked for would raise its own measure.
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -29,7 +30,8 @@ double median(std::vector<double>& values) {
 
 // What a sample has against the cubic through its two neighbours on either side.
 double from_neighbours(const Eigen::Ref<const Eigen::VectorXd>& x, int i) {
-  // At the ends there is no cubic, and nothing is said.
+  // At the ends there is no cubic, and nothing is said. A cubic follows a swing through its turns,
+  // which a mean of two neighbours would call outlying.
   if (i < 2 || i + 2 >= x.size()) return nothing;
   return std::abs(x[i] - (4.0 * (x[i - 1] + x[i + 1]) - (x[i - 2] + x[i + 2])) / 6.0);
 }
@@ -52,6 +54,7 @@ double scatter_near(const std::vector<double>& distance, int i) {
 // move there within a sample.
 std::vector<char> beside_jumps(const Trial& trial, const std::vector<double>& time) {
   std::vector<char> beside(time.size(), 0);
+  // A sample that is true and far from its cubic is worth more than most: it says when it began.
   for (const double jump : jumps_of(trial, trial.effects)) {
     const auto after = std::lower_bound(time.begin(), time.end(), jump) - time.begin();
     for (auto i = std::max<std::ptrdiff_t>(after - 2, 0); i < after + 2; ++i)
@@ -90,6 +93,8 @@ class Points {
       for (int c = 0; c < 3; ++c) scatter[c] = scatter_near(distance_[c], i);
       std::array<double, 3> sorted = scatter;
       std::ranges::sort(sorted);
+      // Half of the middle one of the three: an axis along which the plant hardly moves may well be
+      // quiet, but not at will.
       const double least = std::isfinite(sorted[1]) ? 0.5 * sorted[1] : 0.0;
       excess_[i] = 0.0;
       for (int c = 0; c < 3; ++c)
@@ -108,12 +113,15 @@ int take_out_outliers(Eigen::Ref<Eigen::MatrixXd> xyz, const std::vector<char>& 
   Points points(xyz);
   for (int count = 0;; ++count) {
     int worst = -1;
+    // Squares of three axes against the square of one: noise of all three together is still far
+    // below.
     double most = outlying * outlying;
     for (int i = 0; i < points.size(); ++i) {
       if (spared[i] || !(points.excess(i) > most) || !std::isfinite(points.excess(i))) continue;
       most = points.excess(i);
       worst = i;
     }
+    // Found anew after each, since a point that is gone no longer pulls at its neighbours' cubics.
     // Each pass takes out one, so it ends after as many as there are points.
     if (worst < 0) return count;
     points.take_out(worst);
@@ -125,6 +133,7 @@ int count_points(const Eigen::MatrixXd& xyz) {
 }
 
 int take_out_stuck(Eigen::Ref<Eigen::VectorXd> x) {
+  // By exact equality: instruments that read the same to the last digit for so long have stopped.
   int count = 0, begin = 0;
   for (int i = 1; i <= x.size(); ++i) {
     if (i < x.size() && x[i] == x[begin]) continue;
@@ -149,7 +158,9 @@ int take_out_filled(Eigen::Ref<Eigen::MatrixXd> xyz, double noise) {
   int count = 0, begin = 0;
   std::vector<char> is_filled(xyz.rows(), 0);
   for (int i = 0; i < static_cast<int>(xyz.rows()); ++i) {
-    // All three axes: one of them may lie on a line for a while by chance.
+    // All three axes: one of them may lie on a line for a while by chance. Noise is 1.4 of its
+    // deviations away from the cubic (the root of 70/36); so near to it in all three is one sample
+    // in a million.
     is_filled[i] = i > 0 && xyz.row(i) != xyz.row(i - 1);
     for (int c = 0; c < 3 && is_filled[i]; ++c)
       is_filled[i] = from_neighbours(xyz.col(c), i) < filled * noise;
@@ -182,6 +193,8 @@ bool leave_out_after_break(Trial& trial) {
       const double interval =
           // Of its neighbours, since tables have clocks of their own.
           samples->time[std::min(i + 1, samples->size() - 1)] - samples->time[std::max(i - 1, 0)];
+      // The interval holds two samples, so this is one and a half before: when it came off is known
+      // to a sample.
       if (samples->time[i] < first - 0.75 * interval) continue;
       samples->value.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
       any = true;
@@ -193,6 +206,7 @@ bool leave_out_after_break(Trial& trial) {
 
 Admission admit(const Experiment& experiment) {
   Admission admission;
+  // A copy, since the caller may want to show what was measured.
   admission.experiment = experiment;
   // First: outliers and gaps of another trial's table say nothing about this one.
   admission.contradictions = contradictions(experiment);
@@ -218,6 +232,8 @@ Admission admit(const Experiment& experiment) {
     // A program that smooths leaves no scatter. What the file states then stands for the
     // instrument.
     const double noise = std::min(scatter, experiment.noise.position_std.value_or(scatter));
+    // A gap that was filled has no noise to whiten, and counts as so many samples that agree with
+    // any smooth model. So it is taken out before the noise is read.
     if (noise > least_noise)
       for (Eigen::Index c = 0; c + 3 <= trial.markers.value.cols(); c += 3)
         admission.filled += take_out_filled(trial.markers.value.middleCols(c, 3), noise);
@@ -235,6 +251,7 @@ Admission admit(const Experiment& experiment) {
         admission.outliers += take_out_outliers(samples->value.middleCols(c, 3), spared);
       }
     }
+    // One trial without anything to compare with is a mistake in the folder, not a trial less.
     if (count_finite(trial.markers.value) + count_finite(trial.force.value) +
             count_finite(trial.wrench.value) ==
         0)

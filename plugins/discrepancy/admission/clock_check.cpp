@@ -27,6 +27,8 @@ std::string seconds(double t) {
 
 // The same moment in some other clock's words; empty: none is known.
 std::string likely_clock(double begins) {
+  // Seconds since 1970 were 1e9 in 2001, and will be 3e9 in 2065: no stopwatch shows that by
+  // itself.
   if (begins > 1.0e9 && begins < 3.0e9) return ", not since 1970";
   if (begins > 1.0e12 && begins < 3.0e12) return ", not milliseconds since 1970";
   if (begins > 1.0e15) return ", not micro- or nanoseconds since 1970";
@@ -43,6 +45,8 @@ std::string others(const std::vector<TableClock>& clocks, const TableClock& but)
 }
 
 bool begins_late(const TableClock& clock, const DriveTimes& drive) {
+  // Where nothing ends, or nothing is done, the beginning of the trial is what a table can be late
+  // of.
   const double done = drive.over && drive.any ? drive.last : 0.0;
   const double pause = std::max(longest_pause, pause_share * clock.span());
   if (drive.over && clock.first > done + pause) return true;
@@ -52,6 +56,8 @@ bool begins_late(const TableClock& clock, const DriveTimes& drive) {
 // What is done, without what a path on a wrong clock says of it.
 DriveTimes stated_times(const Trial& trial) {
   Trial without = trial;
+  // Else a path on the same wrong clock would move the end of all that is done to where the tables
+  // begin, and excuse them.
   for (Hold& hold : without.holds) hold.path = {};
   without.base.reset();
   return drive_times(without);
@@ -59,6 +65,8 @@ DriveTimes stated_times(const Trial& trial) {
 
 std::optional<Fault> gap_in(const TableClock& clock, const std::vector<double>& time) {
   for (std::size_t i = 1; i + rows_after < time.size(); ++i) {
+    // Against the other rows, not against a rate: a record may be taken by hand, whenever there is
+    // something to see.
     const double gap = time[i] - time[i - 1], rest = clock.span() - gap;
     if (gap < least_gap || gap < gap_share * rest) continue;
     return Fault{clock.file,
@@ -78,15 +86,19 @@ std::optional<Fault> check_clock(const TrialView& view) {
   if (clocks.empty()) return std::nullopt;
   const DriveTimes stated = stated_times(trial);
   for (const TableClock& clock : clocks)
+    // Every table by itself. They share one clock, and the others are told beside it: mostly one is
+    // wrong.
     if (begins_late(clock, stated))
       return Fault{clock.file, "begins " + seconds(clock.first) + " after the trial" +
                                    others(clocks, clock) + ": expected seconds since it began" +
                                    likely_clock(clock.first)};
   for (const Hold& hold : trial.holds)
+    // A path of one row is a place, which has no time to be late in.
     if (hold.path.time.size() > 1 && hold.release <= hold.path.time.front())
       return Fault{hold.path.file, "begins at " + seconds(hold.path.time.front()) +
                                        ", not before the release at " + seconds(hold.release) +
                                        " that experiment.yaml states: expected the way up to it"};
+  // Last: a table that begins elsewhere is a coarser mistake than one that jumps within.
   return gap_in(clocks.front(), trial.markers.time);
 }
 

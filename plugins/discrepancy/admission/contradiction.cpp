@@ -16,6 +16,8 @@ enum class Needs {
   time,  ///< rows at times: not the rows of a static series
   rest,  ///< and a plant that rests until something is done
 };
+// What a check takes for granted stands beside it here, so that no check has to ask for itself, and
+// none forgets to.
 struct Question {
   Check* ask;
   Needs needs;
@@ -33,7 +35,8 @@ constexpr std::array checks = {
     Question{check_force_clock, Needs::time}, Question{check_force, Needs::time}};
 
 bool is_met(Needs needs, const Trial& trial) {
-  // A trial that begins in motion has no rest before it.
+  // A trial that begins in motion has no rest before it. There the plant swings as it did before,
+  // and what leaves its place leaves it by itself.
   if (needs == Needs::rest && trial.window) return false;
   return needs == Needs::nothing || !trial.is_static;
 }
@@ -42,7 +45,10 @@ bool is_met(Needs needs, const Trial& trial) {
 
 std::vector<Contradiction> contradictions(const Experiment& experiment) {
   std::vector<Contradiction> found;
+  // One for all trials and checks: it is built and settled, which no check should do anew.
   const std::optional<NominalPlant> nominal_plant = NominalPlant::of(experiment);
+  // Trial by trial: tables are written trial by trial, and one that is right is no excuse for
+  // another.
   for (const Trial& trial : experiment.trials) {
     // Checks get the plant where it can be built, and those that do not need it run in any case.
     const TrialView view{experiment, trial, nominal_plant ? &*nominal_plant : nullptr};
@@ -51,6 +57,8 @@ std::vector<Contradiction> contradictions(const Experiment& experiment) {
         continue;
       } else if (auto one = checks[kind].ask(view)) {
         found.push_back(
+            // The number of the check stands for the kind of mistake, so that one mistake in ten
+            // trials can be told once.
             {trial.name, trial.folder / one->file, static_cast<int>(kind), std::move(one->what)});
         // One a trial: what follows it is mostly its consequence.
         break;
@@ -62,9 +70,12 @@ std::vector<Contradiction> contradictions(const Experiment& experiment) {
 void add_to(Diagnostics& diagnostics, const Experiment& experiment,
             const std::vector<Contradiction>& found) {
   for (const Contradiction& one : found)
+    // Without a line: what contradicts is a table as a whole, or two of them.
     diagnostics.error({(experiment.folder / one.file).string(), 0, 0}, one.what);
 }
 
+// A wrong unit is in every table of an experiment. Twenty equal sentences would hide the one that
+// is another mistake.
 std::string sentence(const std::vector<Contradiction>& found) {
   std::string text;
   for (std::size_t i = 0; i < found.size(); ++i) {

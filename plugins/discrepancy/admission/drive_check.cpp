@@ -15,10 +15,13 @@ namespace {
 constexpr double contradicts = 0.5, agrees = 0.9;
 // Or it explains more, but another clock leaves a quarter of what is left of the motion's square.
 constexpr double much_better = 0.25;
+// Shorter shifts than this may be a latency and a plant that is slow to follow, both of which are
+// findings.
 constexpr double least_shift = 0.5;  // s: a latency of 0.3 s, and 0.2 s for a slow plant to follow
 constexpr double grid = 0.05;        // s, of shifts
 constexpr int most_shifts = 1500;
 constexpr double most = 0.5;  // of the drive's motion must be seen with the other clock
+// Rates by the per cent: a clock that is off by less is asked by rate_check.
 constexpr double rate_grid = 0.01, slowest = 0.5, fastest = 2.0;
 
 struct ClockUnit {
@@ -34,12 +37,14 @@ constexpr ClockUnit clock_units[] = {{"milliseconds", 1e3},
 
 const std::string expected = ": expected seconds since the trial began, the same in all its tables";
 
+// Of the path alone. A load has no rows, so nothing could be counted by it.
 double step_of(const Beside& beside) {
   return beside.drive().path ? clock_of({}, beside.drive().path->time).step : 0.0;
 }
 
 // Whether the marker's clock, or the path's, ticks in another unit.
 std::optional<Fault> other_unit(const Beside& beside) {
+  // A unit is wrong by a factor, and then nothing fits: what fits at all is not asked.
   if (beside.explained() > contradicts) return std::nullopt;
   std::vector<ClockUnit> units(std::begin(clock_units), std::end(clock_units));
   // Frames are counted by the drive's own step.
@@ -49,8 +54,12 @@ std::optional<Fault> other_unit(const Beside& beside) {
     // another machine.
     for (const bool path : {false, true}) {
       if (path && !beside.drive().path) continue;
+      // A path in another unit is as if the marker's clock were in the inverse of it. But its hold
+      // then ends by the marker's own time, which is right.
       const ClockReading reading{0.0, path ? 1.0 / unit.scale : unit.scale, path};
       if (beside.explained(reading) < agrees ||
+          // Enough of the drive must be seen by the other clock, or the marker follows a stretch in
+          // which nothing is done.
           beside.follow(reading).driven < most * beside.whole())
         continue;
       return Fault{path ? beside.drive().path->file : "markers.csv",
@@ -116,6 +125,7 @@ bool moves_before(const Beside& beside) {
   double whole = 0.0;
   for (const Vec3& x : path.position) whole = std::max(whole, (x - path.position.front()).norm());
   std::size_t row = 0;
+  // To where the path has left its first place by a fiftieth: a hand that waits trembles.
   while (row + 1 < path.time.size() &&
          (path.position[row + 1] - path.position.front()).norm() < 0.02 * whole)
     ++row;
@@ -136,6 +146,7 @@ std::optional<Fault> late_path(const Beside& beside) {
   // A base shakes the whole plant, and a load may be what has just been taken off.
   if (drive.kind != Drive::Kind::hold || beside.explained() > agrees) return std::nullopt;
   std::vector<Candidate> all;
+  // The grid is fine against the least shift that is told.
   const double last = std::min(drive.path->time.back(), 0.5 * grid * most_shifts);
   for (int i = 1; grid * i <= last; ++i) consider(beside, {-grid * i, 1.0, true}, all);
   const Candidate best =
@@ -160,6 +171,7 @@ std::optional<Fault> shifted(const Beside& beside) {
   const Candidate best =
       nearest_of_best(all, [](const ClockReading& r) { return std::abs(r.shift); });
   const double shift = best.reading.shift;
+  // Both ways, since the marker's table may be the one that is early.
   if (std::abs(shift) < least_shift || !is_better(best, beside)) return std::nullopt;
   // Of a drive that repeats itself a shift by a period explains as much.
   if (shift > 0.0 && !rests_until(beside, shift)) return std::nullopt;
@@ -175,6 +187,8 @@ std::optional<Fault> other_rate(const Beside& beside) {
   if (!beside.drive().path) return std::nullopt;  // loads: load_check
   const double end = std::min(beside.track().time.back(), beside.drive().until);
   std::vector<Candidate> all;
+  // From half to twice as fast: rates of cameras and drives are mixed up by small factors. Larger
+  // ones are units.
   const int rates = static_cast<int>(std::lround((fastest - slowest) / rate_grid));
   for (int i = 0; i <= rates; ++i) consider(beside, {0.0, slowest + rate_grid * i}, all);
   const Candidate best =

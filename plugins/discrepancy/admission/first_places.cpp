@@ -15,6 +15,8 @@ constexpr std::size_t looks = 5;  // samples whose median a single outlier does 
 Vec3 first_seen(const Trial& trial, int m) {
   const Samples& markers = trial.markers;
   std::vector<double> axis[3];
+  // Rows in which it was seen, and not the first five of the table: a marker may come into view
+  // later.
   for (int row = 0; row < markers.size() && (axis[0].size() < looks || trial.window); ++row) {
     const Vec3 x = markers.value.block<1, 3>(row, 3 * m).transpose();
     if (x.allFinite())
@@ -28,6 +30,7 @@ Vec3 first_seen(const Trial& trial, int m) {
 double median_of(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  // The upper one of two middle values: for what it is used for, half a spacing decides nothing.
   std::ranges::nth_element(values, middle);
   return *middle;
 }
@@ -39,6 +42,8 @@ double rms_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 }
 
 double FirstPlaces::spread() const {
+  // From the root, not from their mean: markers that sit close together far out would seem to have
+  // no size.
   return rms_distance(drawn, std::vector<Vec3>(drawn.size(), root));
 }
 
@@ -47,6 +52,8 @@ FirstPlaces first_places(const TrialView& view) {
   // A base that is moved carries the plant along from the start.
   Pose base;  // of what stood as drawn
   if (view.trial.base && !view.trial.base->time.empty()) {
+    // A base's path is that of the root: its place in the world, and how far it has turned since
+    // the plant was drawn.
     base.rotation = view.trial.base->rotation_at(0.0);
     base.position = view.trial.base->position_at(0.0) - base.rotation * view.nominal_plant->root();
   }
@@ -59,6 +66,8 @@ FirstPlaces first_places(const TrialView& view) {
     places.marker.push_back(m);
     places.seen.push_back(seen);
     places.drawn.push_back(base * spot.drawn);
+    // As drawn and as settled, both: a plant may have been drawn as it grew or as it hangs. Checks
+    // take what is nearer.
     places.settled.push_back(base * spot.settled);
   }
   return places;

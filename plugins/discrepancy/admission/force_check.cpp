@@ -21,6 +21,8 @@ constexpr double least_compliance =
     1.0e-3;  // of the softest axis: a rod, its joints and the grip give
 
 std::string likely_unit(double ratio) {
+  // Grams for newtons are a factor of 102, millinewtons of 1000. They part at their geometric mean,
+  // since the plant's own stiffness is known to a factor only.
   if (ratio > 50.0 && ratio < 320.0) return "; in grams?";
   if (ratio >= 320.0 && ratio < 3200.0) return "; in millinewtons?";
   if (ratio < 1e-2 && ratio > 1e-4) return "; in kilonewtons?";
@@ -59,6 +61,8 @@ bool is_across(const Following& f, const Mat3& compliance) {
 
 std::optional<Fault> check_force(const TrialView& view) {
   const Trial& trial = view.trial;
+  // The force is that of the first hold. A point that slides is pushed by friction and contact, of
+  // which stiffness says nothing.
   if (!view.nominal_plant || trial.force.size() == 0 || trial.holds.empty() ||
       trial.holds.front().slides())
     return std::nullopt;
@@ -66,6 +70,8 @@ std::optional<Fault> check_force(const TrialView& view) {
   if (drives.empty() || drives.front().kind != Drive::Kind::hold) return std::nullopt;
   const Drive& drive = drives.front();
   const Following f = following(force_track(trial), drive);
+  // A hold that stays where it is changes no force that could be judged; its level may be an
+  // offset.
   if (f.rows < least_rows || f.driven <= 0.0) return std::nullopt;
   const Mat3 plant = view.nominal_plant->compliance(drive.spot);
   if (!plant.allFinite()) return std::nullopt;
@@ -75,8 +81,10 @@ std::optional<Fault> check_force(const TrialView& view) {
                                   "another axis, or another trial's table?"};
   // Led fast, a force is mass and damping, of which this plant's stiffness says nothing.
   if (!is_led_slowly(view, drive)) return std::nullopt;
+  // The path is the hand's and not the point's: a soft grip takes a part of the way.
   const double grip = trial.holds.front().stiffness ? 1.0 / *trial.holds.front().stiffness : 0.0;
   const Range expected = stiffness(plant, grip, f.along);
+  // A change for a change, so that a sensor that was not zeroed, a known effect, is not told here.
   const double measured = f.gain.dot(f.along);
   // What the path leaves of the force, as an error of its slope.
   const double error = sure * f.left / (f.driven * std::sqrt(static_cast<double>(f.rows)));
@@ -84,10 +92,13 @@ std::optional<Fault> check_force(const TrialView& view) {
       "changes by %.3g N for a metre that the held point is led, and the nominal plant takes "
       "%.3g N: expected ",
       measured, expected.free);
+  // Of the other sign clear of its error, along with the path, and no less than a thirtieth of what
+  // is expected: a sensor's drift alone is none of these.
   if (measured < -error && f.explained() > agrees && -measured > expected.free / most_off)
     return Fault{"force.csv", said + "the holder's pull on the plant; of the opposite sign?"};
   // Against the stiffer of the two: a hold that lets nothing go aside is no mistake.
   const bool is_large = measured - error > most_off * expected.held && f.explained() > agrees;
+  // Against the softer one, for the same reason the other way round.
   const bool is_small = std::abs(measured) + error < expected.free / most_off;
   if (!is_large && !is_small) return std::nullopt;
   return Fault{"force.csv", said + "newtons" +

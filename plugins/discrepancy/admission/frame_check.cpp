@@ -53,6 +53,8 @@ double unexplained(const std::vector<Vec3>& places, const std::vector<Vec3>& see
     sum += seen[i] * places[i].transpose();
     square += places[i].squaredNorm();
   }
+  // About the origin and not about the means: a frame is set up about its own origin, and a shift
+  // is no effect that is known.
   const Eigen::JacobiSVD<Mat3> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 sign = Vec3::Ones();
   // A mirrored frame fits a flat plant as well, and no camera makes one: only turns count.
@@ -66,8 +68,11 @@ double unexplained(const std::vector<Vec3>& places, const std::vector<Vec3>& see
 }
 
 std::optional<Fault> other_axes_fit(const FirstPlaces& places, double left) {
+  // Only what is clearly off the drawing is asked why.
   if (left < least_misfit * places.spread()) return std::nullopt;
   const Axes* best = nullptr;
+  // Four times as well, because 47 readings are tried, and a flat plant fits some of them by
+  // itself.
   double least = by_chance * left;
   for (const Axes& axes : other_axes()) {
     const double there = misfit(places, read_as(axes.read, places.seen));
@@ -88,6 +93,7 @@ std::optional<Fault> other_axes_fit(const FirstPlaces& places, double left) {
 double turn_to(const std::vector<Vec3>& places, const std::vector<Vec3>& seen, const Vec3& axis) {
   double cosine = 0.0, sine = 0.0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
+    // The plane problem of Kabsch has a closed form: the angle of the sum of products.
     const Vec3 a = seen[i] - axis, b = places[i] - axis;
     cosine += a.x() * b.x() + a.y() * b.y();
     sine += a.x() * b.y() - a.y() * b.x();
@@ -97,6 +103,7 @@ double turn_to(const std::vector<Vec3>& places, const std::vector<Vec3>& seen, c
 
 std::optional<Fault> turned_about_vertical(const FirstPlaces& places, double left,
                                            const TrialView& view) {
+  // Fewer markers fit some turn by chance.
   if (places.size() < turned_markers || left < least_misfit * places.spread()) return std::nullopt;
   // About the origin, where frames are set, or about the root, where pots are turned.
   for (const Vec3& axis : {Vec3(Vec3::Zero()), places.root}) {
@@ -109,6 +116,7 @@ std::optional<Fault> turned_about_vertical(const FirstPlaces& places, double lef
     std::vector<Vec3> back;
     for (const Vec3& x : places.seen) back.push_back(axis + turn * (x - axis));
     const double there = misfit(places, back);
+    // More than a frame may be turned by, which is a finding, and then it must nearly fit.
     if (std::abs(angle) < least_turn || there > by_chance * left) continue;
     return Fault{"markers.csv",
                  "begins " + millimetres(misfit(places, places.seen)) +
@@ -133,10 +141,13 @@ std::optional<Fault> shifted(const FirstPlaces& places, const TrialView& view) {
   std::vector<Vec3> back = places.seen;
   // Put back by the mean: what is left then is no shift.
   for (Vec3& x : back) x -= mean;
+  // Far from the origin a frame that is turned a little moves all markers by the same. So what a
+  // known turn and scale make of the root's place is allowed for.
   const double limit = std::max(largest_known::offset, least_shift * view.nominal_plant->reach()) +
                        (largest_known::rotation + largest_known::scale) * places.root.norm();
   // Without a marker near the root a bend looks like a shift.
   if (nearest > near_root * farthest || mean.norm() < limit) return std::nullopt;
+  // Moved back they must fit: what is aside by different ways was bent.
   if (misfit(places, back) > uniform * mean.norm()) return std::nullopt;
   return Fault{"markers.csv", "has all markers aside of the plant's drawing by about (" +
                                   text("%.3g, %.3g, ", mean.x(), mean.y()) +
@@ -152,8 +163,11 @@ std::optional<Fault> check_frame(const TrialView& view) {
   if (!view.nominal_plant) return std::nullopt;
   const FirstPlaces places = first_places(view);
   if (places.size() == 0) return std::nullopt;
+  // As drawn or as settled, whichever leaves less, in favour of the data.
   const double left =
       std::min(unexplained(places.drawn, places.seen), unexplained(places.settled, places.seen));
+  // From what names a mistake to what only says that there is one: exchanged axes would also be a
+  // turn, and both a shift.
   if (auto fault = other_axes_fit(places, left)) return fault;
   if (auto fault = turned_about_vertical(places, left, view)) return fault;
   if (auto fault = shifted(places, view)) return fault;

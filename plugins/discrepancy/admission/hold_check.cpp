@@ -28,7 +28,9 @@ Vec3 expected_place(const TrialView& view, const Spot& spot) {
   const FirstPlaces places = first_places(view);
   const int marker = marker_near(*view.nominal_plant, spot, beside);
   for (int i = 0; i < places.size(); ++i)
-    // Beyond what a turned or scaled frame makes of it, markers are aside because the plant is.
+    // Beyond what a turned or scaled frame makes of it, markers are aside because the plant is. The
+    // marker beside it says how far the plant was aside when the trial began: it may have been led
+    // there before.
     if (places.marker[i] == marker) {
       const Vec3 aside = places.seen[i] - places.settled[i];
       const double frame = (largest_known::rotation + largest_known::scale) * places.seen[i].norm();
@@ -46,8 +48,11 @@ class Beginning {
         limit_(largest_known::offset + spring_share * view.nominal_plant->reach()) {}
 
   double distance(const Vec3& begins) const {
+    // Either is right: the marker may be the one that is off, and the path not.
     return std::min((begins - expected_).norm(), (begins - settled_).norm());
   }
+  // A marker may sit 0.05 m aside and a soft spring give a part of the way: within that the path
+  // may well be right.
   bool is_far(const Vec3& begins) const { return distance(begins) > limit_; }
   const Vec3& expected() const { return expected_; }
 
@@ -58,7 +63,11 @@ class Beginning {
 
 std::string likely(const TrialView& view, const Hold& hold, const Beginning& beginning) {
   const Vec3 begins = hold.path.position.front();
+  // A guess must bring the path to a quarter of its distance: one that only improves it explains
+  // nothing.
   const double far = beginning.distance(begins);
+  // Scales first, then axes, then another point: from the mistake that explains most to the one
+  // that fits by chance.
   for (const auto& [scale, name] : {std::pair(1e3, "millimetres"), std::pair(1e2, "centimetres"),
                                     std::pair(1.0 / 0.0254, "inches")})
     if (beginning.distance(begins / scale) < much_nearer * far && !beginning.is_far(begins / scale))
@@ -67,14 +76,17 @@ std::string likely(const TrialView& view, const Hold& hold, const Beginning& beg
   double least = much_nearer * far;
   for (const Axes& axes : other_axes()) {
     const double there = beginning.distance(axes.read * begins);
+    // A rarer reading has to fit clearly better than a commoner one.
     if (there >= (best ? 0.9 * least : least)) continue;
     least = there;
     best = &axes;
   }
   if (best) return "; read as " + as_read(best->read) + " it would: " + best->what + "?";
   double nearest = much_nearer * far, at = -1.0;
+  // Along its own curve, a twentieth at a time: near enough to name the place in a sentence.
   for (int i = 0; i <= 20; ++i) {
     const Spot other = view.nominal_plant->spot({hold.place.curve, 0.05 * i, {}});
+    // The nearest of them, as its neighbours are nearly as near.
     if ((other.settled - begins).norm() >= nearest) continue;
     nearest = (other.settled - begins).norm();
     at = 0.05 * i;
@@ -104,6 +116,8 @@ std::optional<Fault> turned_quaternion(const DrivenPath& path) {
   const Quat& first = path.rotation.front();
   // Read as qw, qx, qy, qz.
   const Quat other(first.x(), first.y(), first.z(), first.w());
+  // Both: a plant may be turned by as much before the record begins, but then the other reading is
+  // no small turn.
   if (angle(first) < turned_far || angle(other) > turned_little) return std::nullopt;
   return Fault{path.file, text("begins with a turn of %.3g rad, read as qw, qx, qy, qz one of "
                                "%.2g rad: expected qx, qy, qz, qw",
@@ -115,11 +129,14 @@ std::optional<Fault> turned_quaternion(const DrivenPath& path) {
 std::optional<Fault> check_holds(const TrialView& view) {
   if (!view.nominal_plant) return std::nullopt;
   for (const Hold& hold : view.trial.holds) {
+    // A hold without a path holds the point where it is.
     if (hold.path.time.empty()) continue;
     if (hold.slides()) continue;  // it may begin beside its path
+    // First, because a mistake of the order of four columns has one reason only.
     if (auto fault = turned_quaternion(hold.path)) return fault;
     if (auto fault = begins_elsewhere(view, hold)) return fault;
   }
+  // A base may begin anywhere: it carries the plant along, and nothing says where it should be.
   if (view.trial.base) return turned_quaternion(*view.trial.base);
   return std::nullopt;
 }

@@ -12,7 +12,9 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double far = 3.0;       // times the longest of the two steps before and after
+// Against what it does right there. A fast swing has long steps, but they are long on both sides.
+constexpr double far = 3.0;  // times the longest of the two steps before and after
+// As for steps of the frame: every row is asked, and noise must never reach it.
 constexpr double visible = 15.0;  // times the noise
 constexpr double smooth = 0.6;    // by which two steps that follow each other may differ
 constexpr double even = 1.2;      // of the clock's steps
@@ -27,6 +29,8 @@ bool jumps(const Samples& samples, int row, int m, double noise) {
   const Vec3 here = step(samples, row, m);
   double longest = 0.0;
   for (const int side : {-1, 1}) {
+    // Two steps on either side, which must be alike: where the motion is not smooth at this rate, a
+    // jump says nothing.
     const Vec3 next = step(samples, row + side, m), second = step(samples, row + 2 * side, m);
     const double most = std::max(next.norm(), second.norm());
     // Seldom sampled, any motion jumps.
@@ -41,19 +45,26 @@ bool jumps(const Samples& samples, int row, int m, double noise) {
 std::optional<Fault> check_jumps(const TrialView& view) {
   const Samples& samples = view.trial.markers;
   const DriveTimes drive = drive_times(view.trial);
+  // Something that acts to the end may jerk the plant at any time.
   if (!drive.over) return std::nullopt;
   const double noise = noise_of_markers(view);
   const double usual = clock_of({}, samples.time).step;
   const int markers = static_cast<int>(view.experiment.markers.size());
   for (int row = 3; row + 2 < samples.size(); ++row) {
+    // A plant that was just let go starts within a sample. The first of the six rows counts, as all
+    // of them are judged.
     if (drive.any && samples.time[row - 3] < drive.last + after) continue;
+    // Where the clock shows the gap, everything is as it says.
     if (samples.time[row] - samples.time[row - 1] > even * usual) continue;
     int seen = 0, jumping = 0;
     for (int m = 0; m < markers; ++m) {
+      // Of a marker that was hidden in between the steps are those of several rows.
       if (!samples.value.block(row - 3, 3 * m, 6, 3).allFinite()) continue;
       ++seen;
       jumping += jumps(samples, row, m, noise) ? 1 : 0;
     }
+    // More than half of them. One that jumps was touched or mislabelled, which others ask; dropped
+    // frames move all, but those near the clamp by too little to see.
     if (jumping == 0 || 2 * jumping <= seen) continue;
     return Fault{
         "markers.csv",

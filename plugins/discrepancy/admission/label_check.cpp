@@ -30,6 +30,7 @@ Vec3 place(const Samples& samples, int row, int m) {
   return samples.value.block<1, 3>(row, 3 * m).transpose();
 }
 
+// Two markers that are told by one column would agree with any model of one of them.
 std::optional<Fault> same_columns(const TrialView& view) {
   const Samples& samples = view.trial.markers;
   const int markers = static_cast<int>(view.experiment.markers.size());
@@ -71,14 +72,19 @@ std::optional<Fault> words_for_not_seen(const TrialView& view) {
   // Twice the reach: the frame may be turned and scaled.
   const double farthest = 2.0 * view.nominal_plant->reach() + view.nominal_plant->root().norm();
   for (int m = 0; m < static_cast<int>(view.experiment.markers.size()); ++m) {
+    // Near the origin of the world a marker may well come by, and numbers cut short may say 0, 0, 0
+    // there.
     const bool zero_is_no_place =
         view.nominal_plant->markers()[m].drawn.norm() >= largest_known::offset;
     std::map<double, int> rows;
     for (int row = 0; row < samples.size(); ++row) {
       const Vec3 x = place(samples, row, m);
+      // One number three times is how such codes are written, whatever the number: -9999, or 1e6.
       if (x.x() == x.y() && x.y() == x.z()) ++rows[x.x()];
     }
     for (const auto& [said, count] : rows) {
+      // Zero is a code by itself. Another number may stand in one row by a fault of that row, so it
+      // must come twice.
       const bool impossible =
           said == 0.0 ? zero_is_no_place : count >= 2 && std::abs(said) > farthest;
       if (impossible)
@@ -92,6 +98,8 @@ std::optional<Fault> words_for_not_seen(const TrialView& view) {
 }
 
 std::optional<Fault> exchanged_for_good(const TrialView& view) {
+  // Up to the end nothing tells which of the two labels was right before, so nothing can be put
+  // back.
   for (const LabelExchange& exchange : exchanges_in(view.trial.markers.value)) {
     // Short ones are put back, and told as a remark.
     if (exchange.to < view.trial.markers.size()) continue;
@@ -112,6 +120,7 @@ std::optional<Fault> exchanged_from_the_start(const TrialView& view) {
   const FirstPlaces first = first_places(view);
   for (int i = 0; i < first.size(); ++i)
     for (int j = i + 1; j < first.size(); ++j) {
+      // By what was seen first, since only those have places to be exchanged.
       const int a = first.marker[i], b = first.marker[j];
       // Neighbours closer than that look exchanged in any strong bend.
       if ((first.settled[i] - first.settled[j]).norm() < 4.0 * little) continue;
@@ -121,8 +130,12 @@ std::optional<Fault> exchanged_from_the_start(const TrialView& view) {
         // Only where both were seen.
         if (!(x + y).allFinite()) continue;
         ++seen;
+        // Both together: an exchange brings both home. One alone may pass the other's place in any
+        // swing.
         const double kept = (x - first.settled[i]).norm() + (y - first.settled[j]).norm();
         const double other = (x - first.settled[j]).norm() + (y - first.settled[i]).norm();
+        // A quarter of the distance, since in a strong bend markers come nearer to the places of
+        // others by themselves.
         exchanged += other < nearer * kept ? 1 : 0;
       }
       if (exchanged < least_equal || exchanged < often * seen) continue;
@@ -151,6 +164,8 @@ std::vector<Stretch> stretches(const TrialView& view) {
   std::vector<Stretch> found;
   for (int a = 0; a < static_cast<int>(spots.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(spots.size()); ++b) {
+      // The way along the plant is what no bend makes longer. Through the air they may come as near
+      // as they like, so there is no lower bound.
       Stretch stretch{a, b, 0.0, view.nominal_plant->along(spots[a], spots[b]), 0};
       const double most =
           // What a scaled frame and displaced markers may make of it.
@@ -159,6 +174,7 @@ std::vector<Stretch> stretches(const TrialView& view) {
       for (int row = 0; row < samples.size(); ++row) {
         const double distance = (place(samples, row, a) - place(samples, row, b)).norm();
         seen += std::isfinite(distance) ? 1 : 0;
+        // Written so that a marker that was not seen, whose distance is no number, is passed over.
         if (!(distance > most)) continue;
         stretch.apart = std::max(stretch.apart, distance);
         ++stretch.rows;
@@ -170,6 +186,8 @@ std::vector<Stretch> stretches(const TrialView& view) {
 }
 
 std::optional<Fault> stretched(const TrialView& view) {
+  // All pairs are looked at before any is told, because the first that is found may be the right
+  // one of the two.
   const std::vector<Stretch> all = stretches(view);
   if (all.empty()) return std::nullopt;
   // The marker that most of them have in common.
@@ -178,6 +196,7 @@ std::optional<Fault> stretched(const TrialView& view) {
     ++count[one.a];
     ++count[one.b];
   }
+  // A marker in a wrong place is too far from many others, while those among each other are right.
   const int worst = static_cast<int>(std::ranges::max_element(count) - count.begin());
   const auto with = std::ranges::find_if(
       all, [&](const Stretch& one) { return one.a == worst || one.b == worst; });
@@ -197,6 +216,8 @@ std::optional<Fault> check_labels(const TrialView& view) {
   // Without any place the others have nothing to ask.
   if (auto fault = never_seen(view)) return fault;
   if (!view.nominal_plant) return std::nullopt;
+  // Codes for "not seen" first: a marker at 0, 0, 0 is also stretched, and sometimes two columns
+  // are equal by them.
   for (const auto check :
        {words_for_not_seen, same_columns, exchanged_for_good, exchanged_from_the_start, stretched})
     if (auto fault = check(view)) return fault;

@@ -8,13 +8,16 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double at_rest = 10.0;     // times the noise: the range of a marker at rest
-constexpr double leaves = 6.0;       // times the noise, from the mean of its rest
+// The range of a thousand samples of noise is six or seven deviations.
+constexpr double at_rest = 10.0;  // times the noise: the range of a marker at rest
+constexpr double leaves = 6.0;    // times the noise, from the mean of its rest
+// A swing that turns stays as near to one place for a short time, but not for so long.
 constexpr double least_rest = 0.25;  // s
 constexpr int least_samples = 5;     // at rest
 constexpr std::size_t turning_samples = 3;
 constexpr double turning = 20.0;     // times the noise
 constexpr double short_rest = 0.15;  // of the longest
+// More are a force that was recorded, with a change in every row.
 constexpr std::size_t most_changes = 200;
 
 /// When the loads change after the record begins, and by what.
@@ -31,9 +34,11 @@ Vec3 force_at(const Trial& trial, double t) {
 }
 
 std::vector<Change> changes_of(const Trial& trial, const Track& track) {
-  // In order and once each: a load that follows another at once is one change.
+  // In order and once each: a load that follows another at once is one change. From all loads
+  // together: what a marker sees is their sum.
   std::set<double> times;
   for (const TimedLoad& load : trial.loads)
+    // Changes before the first sample are not seen; they are part of where it begins.
     for (const double t : {load.from, load.to})
       if (t > track.time.front() && std::isfinite(t)) times.insert(t);
   std::vector<Change> changes;
@@ -80,6 +85,7 @@ std::vector<Rest> rests_of(const Track& track, double noise) {
     if (rows >= least_samples && track.time[row - 1] - track.time[first] >= least_rest) {
       rests.push_back({first, row - 1, sum / static_cast<double>(rows)});
       first = row;
+      // On by one row only: the next rest may begin anywhere.
     } else {
       ++first;
     }
@@ -97,6 +103,8 @@ std::vector<Rest> distinct(const Track& track, const std::vector<Rest>& rests, d
     const bool at_once = !found.empty() && rest.first - found.back().last <= turning_samples &&
                          way < turning * noise;
     bool same = !found.empty() && way < leaves * noise;
+    // A stretch between two rests in one place may have been an answer that went back. Only where
+    // the marker stayed near are they one.
     if (same && !at_once)
       for (std::size_t row = found.back().last; row < rest.first; ++row)
         same = same && (track.place[row] - rest.place).norm() < 2.0 * leaves * noise;
@@ -105,6 +113,7 @@ std::vector<Rest> distinct(const Track& track, const std::vector<Rest>& rests, d
       continue;
     }
     found.back().last = rest.last;
+    // Where it has come to rest at last is where it is.
     if (at_once) found.back().place = rest.place;
   }
   const auto lasts = [&](const Rest& rest) {
@@ -113,6 +122,8 @@ std::vector<Rest> distinct(const Track& track, const std::vector<Rest>& rests, d
   double longest = 0.0;
   // Relative to the longest, since plants are slow or fast.
   for (const Rest& rest : found) longest = std::max(longest, lasts(rest));
+  // A swing stands still for a short time where it turns, and a slow plant for longer than any
+  // fixed limit.
   std::erase_if(found, [&](const Rest& rest) { return lasts(rest) < short_rest * longest; });
   return found;
 }
@@ -121,6 +132,7 @@ std::vector<Rest> distinct(const Track& track, const std::vector<Rest>& rests, d
 double rise(const Track& track, const Rest& from, const Rest& to) {
   const Vec3 way = to.place - from.place;
   std::size_t row = from.last + 1;
+  // Half and not all: a plant comes to rest slowly, and where that ends is a matter of noise.
   while (row < to.last && (track.place[row] - from.place).dot(way) < 0.5 * way.squaredNorm()) ++row;
   return track.time[row] - track.time[from.last];
 }
@@ -128,6 +140,7 @@ double rise(const Track& track, const Rest& from, const Rest& to) {
 }  // namespace
 
 LoadAnswers load_answers(const Trial& trial, const Track& track, double noise) {
+  // Without any noise rest has no measure.
   if (track.time.size() < 2 * least_samples || noise <= 0.0) return {};
   const std::vector<Change> changes = changes_of(trial, track);
   // Loads that change all the time leave no rests between them.
@@ -140,8 +153,10 @@ LoadAnswers load_answers(const Trial& trial, const Track& track, double noise) {
     // Along the change: what goes aside says nothing of its sign.
     const double way = (rests[i + 1].place - rests[i].place).dot(changes[i].force.normalized());
     answers.all.push_back(
+        // The first sample that left counts as when it was seen.
         {changes[i].time, track.time[rests[i].last + 1], way, rise(track, rests[i], rests[i + 1])});
   }
+  // A change after the record's end has no answer in it, and is not missing.
   const auto within = std::ranges::count_if(
       changes, [&](const Change& change) { return change.time < track.time.back(); });
   answers.complete = within == std::ssize(answers.all);

@@ -27,10 +27,14 @@ std::optional<NominalPlant> NominalPlant::of(const Experiment& experiment) {
 
 NominalPlant::NominalPlant(const Experiment& experiment)
     : file_(experiment.plant),
+      // On the file's own mesh, without short segments at junctions: what these change is far less
+      // than what is asked here.
       built_(PlantMaker(experiment, experiment.plant.distance, 0.0).nominal()),
       drawn_(cosserat::drawn_state(built_.model)),
       settled_(drawn_) {
   const cosserat::RodModel& model = built_.model;
+  // Of the first trial, also where the plant is turned between trials. The drawn places count
+  // beside the settled ones in most checks.
   gravity_ = experiment.trials.empty() ? Vec3(0, 0, -9.81) : experiment.trials.front().gravity;
   // A plant too soft to stand is compared as drawn: what falls over is found by others.
   if (!find_equilibrium(model, settled_, gravity_, {})) settled_ = drawn_;
@@ -41,6 +45,7 @@ NominalPlant::NominalPlant(const Experiment& experiment)
     reach_ = std::max(reach_, far_.back());
     mass_ += element.mass;
   }
+  // Last, since a spot needs the settled plant and the ways along it.
   for (const Marker& marker : experiment.markers) markers_.push_back(spot(marker.place));
 }
 
@@ -65,6 +70,8 @@ const Mat3& NominalPlant::compliance(const Spot& spot) const {
 Mat3 NominalPlant::find_compliance(const Spot& spot) const {
   const int element = spot.point.element;
   const double back = spot.point.back;
+  // By equilibria, not by the stiffness matrix: a place within an element, and a plant that sags,
+  // are in it.
   const auto moved = [&](const Vec3& force) {
     cosserat::RodState state = settled_;
     const cosserat::Load load{element, back, force};
@@ -84,6 +91,8 @@ Mat3 NominalPlant::find_compliance(const Spot& spot) const {
     return Mat3(0.5 * (compliance + compliance.transpose()));
   };
   const Mat3 compliance = estimate(usual_force);
+  // The first force is a guess. By what it moves the second one is chosen, so that differences are
+  // neither rounding nor a large deflection.
   const double way = usual_force * compliance.diagonal().maxCoeff() / reach_;
   if (!(way > largest_way || way < smallest_way)) return compliance;
   // A stiff tree hardly moves under a millinewton, a thin stem folds under it.

@@ -10,7 +10,9 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// To accuse another trial it takes nearly all of the motion; to clear this one, half of it.
 constexpr double agrees = 0.9;
+// As beside a drive: fewer rows are explained by anything.
 constexpr int least_rows = 8;
 constexpr double visible = 10.0;     // times the noise, of what moves
 constexpr double contradicts = 0.5;  // of the motion is not what is done
@@ -28,8 +30,12 @@ const Trial* follows_that_of(const Beside& beside) {
   for (const Trial& other : experiment.trials) {
     // A table that was copied from another trial follows that one's path.
     if (&other == &beside.view().trial) continue;
+    // The other trial's drives beside this one's marker, as it would be if the tables had been put
+    // into each other's folders.
     const TrialView view{experiment, other, beside.view().nominal_plant};
     for (const Drive& drive : drives_of(view))
+      // The likeliest reason, and the only one that can be proved: these markers do what was done
+      // there.
       if (drive.kind == beside.drive().kind && beside.explained_by(drive) > agrees) return &other;
   }
   return nullptr;
@@ -63,13 +69,16 @@ std::string likely(const Beside& beside, const Following& f) {
 }
 
 std::optional<Fault> goes_elsewhere(const Beside& beside) {
+  // A load has no way that a marker could miss.
   if (!beside.drive().path) return std::nullopt;
   const Following f = beside.follow();
   const double reach = beside.view().nominal_plant->reach();
   if (f.rows < least_rows) return std::nullopt;
   // Of little a plant may make anything, and noise does the rest.
   if (f.driven < std::max(least_way * reach, seen * beside.noise())) return std::nullopt;
-  // It rests while its neighbour is led: another marker's column, or another trial's.
+  // It rests while its neighbour is led: another marker's column, or another trial's. By motion,
+  // not by what is explained: of what rests nothing is, and a limp plant beside a soft grip still
+  // goes along a little.
   if (f.moved < rests * f.driven)
     return Fault{"markers.csv",
                  "has " + beside.marker() +
@@ -79,6 +88,7 @@ std::optional<Fault> goes_elsewhere(const Beside& beside) {
                           "go along",
                           1e3 * f.driven) +
                      likely(beside, f)};
+  // Half of the motion, since a fast drive shakes the plant in its own ways besides.
   if (f.moved < visible * beside.noise() || beside.explained() > contradicts) return std::nullopt;
   return Fault{"markers.csv", "has " + beside.marker() + " go another way than " + beside.what() +
                                   " leads the plant beside it, which explains " +
@@ -92,6 +102,8 @@ std::optional<Fault> goes_elsewhere(const Beside& beside) {
 
 std::optional<Fault> check_paths(const TrialView& view) {
   if (!view.nominal_plant) return std::nullopt;
+  // After the clocks: a marker with a wrong clock goes another way as well, and the clock is the
+  // better reason.
   for (const Beside& beside : Beside::all_of(view))
     if (auto fault = goes_elsewhere(beside)) return fault;
   return std::nullopt;

@@ -15,13 +15,15 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Every row of every marker is asked, so noise must never reach it.
 constexpr double visible = 15.0;       // times the noise
 constexpr double least_step = 5.0e-3;  // m
 constexpr double smooth = 0.3;         // of the step, by which other steps may differ in a row
 // Of the step, by which others may change theirs. What pulls a stem aside at its tip moves half of
 // it by 0.3 of that.
 constexpr double others_share = 0.1;
-constexpr double near = 0.5;   // of the way from the root: a marker must be so near to see that
+constexpr double near = 0.5;  // of the way from the root: a marker must be so near to see that
+// A step over a gap is the sum of several, and says nothing of how fast they were.
 constexpr double even = 1.2;   // of the clock's steps
 constexpr int around = 12;     // samples on either side that the step must outlast
 constexpr double lasts = 0.5;  // of the step stays at least
@@ -40,13 +42,16 @@ bool is_seen(const Samples& samples, int row, int m) {
 
 // Beyond what it does before and after.
 Vec3 step_of(const Samples& samples, int row, int m) {
+  // So a marker that is moving all along has none.
   return way(samples, row, m) - 0.5 * (way(samples, row - 1, m) + way(samples, row + 1, m));
 }
 
 bool is_smooth_beside(const Samples& samples, int row, int m, double most) {
+  // Steps but the one in question must be alike. A marker that jumps about is a matter of outliers.
   const auto differ = [&](int a, int b) {
     return (way(samples, row + a, m) - way(samples, row + b, m)).norm();
   };
+  // Three differences, which leave out the step itself.
   return differ(-2, -1) < most && differ(-1, 1) < most && differ(1, 2) < most;
 }
 
@@ -56,14 +61,17 @@ class Slips {
       : view_(view),
         samples_(view.trial.markers),
         noise_(noise_of_markers(view)),
+        // Of the table's own clock: what counts as a gap depends on how often is sampled.
         usual_(clock_of({}, samples_.time).step),
+        // The times at which a force jumps, as the simulator steps by them.
         jumps_(jumps_of(view.trial, view.trial.effects)) {}
 
   std::optional<Fault> of(int m) const {
     std::vector<int> rows;
+    // Three rows before and two behind: what it does on either side has to be known.
     for (int row = 3; row + 2 < samples_.size(); ++row)
       if (is_slip(row, m)) rows.push_back(row);
-    // Twice: the tracker took something else for it for a while.
+    // Twice: the tracker took something else for it for a while, and came back. What slipped stays.
     if (rows.size() != 1 || !outlasts(rows[0], m) || came_back(rows[0], m)) return std::nullopt;
     const int row = rows[0];
     return Fault{"markers.csv",
@@ -77,13 +85,17 @@ class Slips {
  private:
   bool is_slip(int row, int m) const {
     if (!is_seen(samples_, row, m) || is_beside_jump(row)) return false;
+    // Over a gap nobody knows what happened.
     if (samples_.time[row + 2] - samples_.time[row - 3] > even * 5.0 * usual_) return false;
+    // As a step and not as a speed: what slips does so within one interval, however long that is.
     const double step = step_of(samples_, row, m).norm();
     if (step < std::max(least_step, visible * noise_)) return false;
     if (!is_smooth_beside(samples_, row, m, smooth * step + 6.0 * noise_)) return false;
+    // Last, since it looks at all markers.
     return others_go_on(row, m, others_share * step + 4.0 * noise_);
   }
 
+  // Where a load changes or a hand opens, a light tip may go as far within a sample, and alone.
   bool is_beside_jump(int row) const {
     return std::ranges::any_of(jumps_, [&](double jump) {
       return samples_.time[row] > jump - before_jump && samples_.time[row - 1] < jump + after_jump;
@@ -93,8 +105,10 @@ class Slips {
   // And one of them is so near that it would be taken along.
   bool others_go_on(int row, int m, double most) const {
     const std::vector<Spot>& spots = view_.nominal_plant->markers();
+    // Without a neighbour that is near, a stem may have been pulled where only this marker sees it.
     bool any_near = false;
     for (int other = 0; other < static_cast<int>(spots.size()); ++other) {
+      // One that was hidden says nothing either way.
       if (other == m || !is_seen(samples_, row, other)) continue;
       if (step_of(samples_, row, other).norm() > most) return false;
       any_near = any_near ||
@@ -109,14 +123,18 @@ class Slips {
     const auto mean = [&](int from, int to) {
       Vec3 sum = Vec3::Zero();
       int count = 0;
+      // As many rows as there are, near the ends of a record.
       for (int i = std::max(from, 0); i < std::min(to, samples_.size()); ++i) {
+        // Rows in which it was hidden are no part of the mean.
         if (!place(samples_, i, m).allFinite()) continue;
         sum += place(samples_, i, m);
         ++count;
       }
       return Vec3(sum / std::max(count, 1));
     };
+    // By means, so that a swing about either place does not hide it.
     const Vec3 change = mean(row, row + around) - mean(row - around, row);
+    // Along the step: what it changes across is its swing.
     return change.dot(step) > lasts * step.squaredNorm();
   }
 
@@ -126,6 +144,8 @@ class Slips {
     const Track track = track_of(view_.trial, m);
     for (std::size_t i = 1; i < track.time.size(); ++i) {
       if (track.time[i] - track.time[i - 1] < even * usual_) continue;
+      // Then its name went to something else for a while; the row of the return was hidden by a
+      // gap.
       if ((track.place[i] - track.place[i - 1]).dot(step) < -lasts * step.squaredNorm())
         return true;
     }

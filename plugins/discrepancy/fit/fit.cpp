@@ -28,6 +28,8 @@ class Problem : public ceres::CostFunction {
         start_(start.unknowns()),
         differences_(differences),
         samples_(evaluator.data().size(options.trials)) {
+    // A row more for every unknown, whether something is known of it or not. Rows of zeros change
+    // nothing, and all models are laid out alike.
     set_num_residuals(samples_ + start.size());
     mutable_parameter_block_sizes()->push_back(start.size());
   }
@@ -38,11 +40,17 @@ class Problem : public ceres::CostFunction {
     compute(u);
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
     r.head(samples_) = now_.residual;
+    // What is known beforehand stands among the residuals, as a measurement of the unknown itself.
+    // A bound in its place would be knowledge without any doubt, and the data could not overrule
+    // it.
     for (int p = 0; p < start_.size(); ++p) r[samples_ + p] = prior(p) * (u[p] - centre(p));
+    // Ceres asks for the residuals of a step first, and for derivatives only where it takes the
+    // step.
     if (!jacobians || !jacobians[0]) return true;
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
         jacobians[0], num_residuals(), start_.size());
     j.setZero();
+    // Differences are of the prediction, and a residual is data less prediction.
     j.topRows(samples_) = -now_.jacobian;
     for (int p = 0; p < start_.size(); ++p) j(samples_ + p, p) = prior(p);
     return true;
@@ -50,15 +58,23 @@ class Problem : public ceres::CostFunction {
 
   void compute(const Eigen::VectorXd& u) const {
     if (now_.is_at(u)) return;
+    // No copy but an exchange: the point that was the last one may still be the better of the two.
     if (best_.is_at(u)) {
       std::swap(now_, best_);
       return;
     }
+    // Only the point that is left behind competes here, so the best one is never lost to the next.
+    // What is known beforehand counts, too: nearer to the data and farther from that is not better.
     if (best_.u.size() == 0 || objective(now_) < objective(best_)) std::swap(now_, best_);
+    // Derivatives are simulated with the point, asked for or not. Equal plants share the solver's
+    // lanes, so one alone would leave them empty, and a step that is taken would be simulated
+    // twice.
     const Eigen::MatrixXd r = evaluator_.residuals(differences_.points(u), options_);
     now_ = {u, r.col(0), differences_.jacobian(r)};
     // Where the model misses the data by many times the noise, the data weigh less against what is
-    // known beforehand. Set once, so that the cost stays one function.
+    // known beforehand. Set once, so that the cost stays one function. Without it a model that
+    // misses by 50 noise units would drag a density that was weighed to wherever a misfit that is
+    // no noise gets smaller.
     if (spread_ == 0.0) {
       const int seen = evaluator_.data().samples(options_.trials, options_.horizon);
       spread_ = std::sqrt(std::max(1.0, now_.residual.squaredNorm() / std::max(1, seen)));
@@ -68,6 +84,8 @@ class Problem : public ceres::CostFunction {
   /// Finds out how large differences should be: a first guess of one in a hundred turns a long
   /// swing by a radian, or moves nothing, and a step from a wrong derivative is refused.
   void find_differences(const Eigen::VectorXd& u) const {
+    // The first simulations are kept where the guess did. Else the point is forgotten, and the next
+    // call simulates it with differences of the size that was just learnt.
     compute(u);
     if (!differences_.suited()) now_ = {};
   }
@@ -86,6 +104,7 @@ class Problem : public ceres::CostFunction {
 
   // What a fit minimises.
   double objective(const Point& point) const {
+    // A place that holds no point yet loses against any.
     if (point.u.size() == 0) return std::numeric_limits<double>::infinity();
     double sum = point.residual.squaredNorm();
     for (int p = 0; p < start_.size(); ++p) sum += std::pow(prior(p) * (point.u[p] - centre(p)), 2);
@@ -93,6 +112,7 @@ class Problem : public ceres::CostFunction {
   }
 
   double prior(int p) const {
+    // A deviation of 0 says that nothing is known, not that all is.
     return hypothesis_.free[p].prior > 0.0 ? spread_ / hypothesis_.free[p].prior : 0.0;
   }
 
@@ -112,6 +132,8 @@ class Problem : public ceres::CostFunction {
 };
 
 Eigen::VectorXd bounded(const Hypothesis& start) {
+  // Starts also come from linear steps and from symptoms, which know no bounds. Ceres takes none
+  // that lies outside.
   return start.unknowns().cwiseMax(start.low()).cwiseMin(start.high());
 }
 
@@ -121,6 +143,8 @@ void add(Prediction& to, double share, const Prediction& change) {
   if (to.wrench.size() > 0) to.wrench += share * change.wrench;
 }
 
+// Errors and bounds of what was found, by the linear model there. A prior counts in units of the
+// noise here, not of the spread by which the fit weighed it.
 void judge(FitSummary& fit) {
   const int n = fit.hypothesis.size();
   const Eigen::VectorXd u = fit.hypothesis.unknowns();
@@ -132,19 +156,27 @@ void judge(FitSummary& fit) {
     if (prior > 0.0) information(p, p) += 1.0 / (prior * prior);
     size[p] = std::sqrt(information(p, p));
     const double low = fit.hypothesis.low()[p], high = fit.hypothesis.high()[p];
+    // Unknowns come back by way of their values, through a logarithm and its inverse, so that a
+    // bound is met to rounding alone.
     const double near = 1.0e-6 * (1.0 + high - low);
     if (u[p] - low < near || high - u[p] < near) fit.at_bound.push_back(p);
   }
+  // One unknown that moves nothing makes the whole matrix singular. The others get the error that
+  // they would have alone: too small where they trade with each other, but better than none.
   if (n == 0 || size.minCoeff() < open_direction) {
     fit.condition = n == 0 ? 1.0 : std::numeric_limits<double>::infinity();
     for (int p = 0; p < n; ++p)
       if (size[p] >= open_direction) fit.standard_error[p] = 1.0 / size[p];
     return;
   }
+  // To a diagonal of ones first. Unknowns are logarithms, lengths in their own scales, and shares;
+  // the condition of the bare matrix would tell these units and nothing of the data.
   const Eigen::MatrixXd scaled =
       size.cwiseInverse().asDiagonal() * information * size.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  // By rounding the smallest one may come out below zero, where it has no root and no inverse.
   const Eigen::VectorXd values = eigen.eigenvalues().cwiseMax(1.0e-14);
+  // The root, because the information is the square of the Jacobian that the condition is told of.
   fit.condition = std::sqrt(values[n - 1] / values[0]);
   const Eigen::MatrixXd inverse =
       eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
@@ -159,6 +191,8 @@ PriorRows prior_rows(const FitSummary& model) {
   PriorRows rows{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
   for (int p = 0; p < n; ++p) {
     const FreeParameter& free = model.hypothesis.free[p];
+    // These rows are those of the fit, spread and all: whoever steps from this model by them must
+    // not undo what the fit decided.
     if (free.prior <= 0.0) continue;
     rows.weight[p] = model.spread / free.prior;
     rows.left[p] = rows.weight[p] * (free.to_unknown(free.prior_centre) - u[p]);
@@ -172,8 +206,11 @@ void Shift::add(double share, const Shift& other) {
 
 void Shift::apply(Variant& variant) const {
   for (std::size_t i = 0; i < names.size(); ++i) {
+    // A factor of 1 would change nothing but the variant itself, which the simulator knows motions
+    // by.
     if (logarithm[i] == 0.0) continue;
     auto found = std::ranges::find(variant.effects, names[i], &plant::Effect::name);
+    // A shift acts on all three, fitted or not: a mesh that is too stiff does not ask what is free.
     if (found == variant.effects.end()) {
       variant.effects.push_back({names[i], {}, {{"factor", {1.0}}}, {}, {}});
       found = variant.effects.end() - 1;
@@ -185,6 +222,8 @@ void Shift::apply(Variant& variant) const {
 Shift Corrections::shift(double share) const {
   Shift sum = own.shift;
   sum.add(share, first.shift);
+  // By the powers of the spacing with which the two errors vanish: the first at junctions, the
+  // second everywhere else.
   sum.add(share * share, second.shift);
   return sum;
 }
@@ -200,11 +239,15 @@ std::vector<std::vector<Prediction>> Evaluator::predictions(std::span<const Hypo
   std::vector<Variant> variants;
   for (const Hypothesis& hypothesis : hypotheses) {
     variants.push_back(hypothesis.variant());
+    // The shift goes into the model before it runs, the rest is added to what comes out. A swing
+    // whose period is wrong by a little is out of phase at the end, and no small sum mends that.
     if (corrections_) corrections_->shift(hypothesis.mesh_share()).apply(variants.back());
   }
   std::vector<Simulator::Request> requests;
   for (const Variant& variant : variants)
     for (const int trial : options.trials)
+      // A part of the records is simulated no longer than it counts: that is what makes searches
+      // over first parts cheap.
       requests.push_back({&variant, trial, data_->end_of(trial, options.horizon)});
   std::vector<Prediction> all = simulator_->run(requests);
   std::vector<std::vector<Prediction>> result(hypotheses.size());
@@ -242,14 +285,23 @@ FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptio
   Eigen::VectorXd u = bounded(start);
   if (start.size() == 0) {
     result.converged = true;
+    // Ceres has nothing to move here. The model's residual is wanted all the same, as of any other.
     result.why = "nothing is free";
   } else {
     ceres::Solver::Options settings;
+    // A few unknowns and thousands of samples: the normal equations are tiny. That their condition
+    // is the square of the Jacobian's is mended by the damping of Levenberg-Marquardt, which bounds
+    // it.
     settings.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     settings.max_num_iterations = options.iterations;
+    // Ceres compares a step's gain with the cost. Where noise alone is left the cost is half the
+    // number of samples, so this share of it is `least_step` nats. A share that is the same for all
+    // records would end long ones in the middle of a valley.
     settings.function_tolerance =
         2.0 * options.least_step /
         std::max(1, problem.data().samples(options.trials, options.horizon));
+    // So small that fits end by what they gain, not by how far they step. In a valley where two
+    // effects trade, short steps may still gain.
     settings.parameter_tolerance = 1.0e-6;
     // Where an effect does almost what modulus or density does, the valley to the minimum is narrow
     // and bent: a fit that may only go down creeps along it, or stops on its side. Measured on a
@@ -263,11 +315,15 @@ FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptio
     result.converged = found.converged;
     result.why = std::move(found.why);
   }
+  // Where the fit ended is one of the two points that are kept, but for a bound that was set
+  // exactly.
   problem.compute(u);
   result.hypothesis.set_unknowns(u);
   result.residual = problem.residual();
   result.jacobian = problem.jacobian();
   result.spread = problem.spread();
+  // Of the data alone. What is known beforehand is added by those who compare models, each in its
+  // own way.
   result.cost = 0.5 * result.residual.squaredNorm();
   judge(result);
   return result;
@@ -277,6 +333,8 @@ FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptio
 
 FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options,
                const Eigen::MatrixXd& known) {
+  // Derivatives that are known are those of a model near by. Their sizes are tried before they are
+  // trusted.
   const Problem problem(evaluator, start, options, Differences(start, known));
   if (start.size() > 0) problem.find_differences(bounded(start));
   return solve(problem, start, options);
@@ -284,6 +342,7 @@ FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& 
 
 FitSummary refit(Evaluator& evaluator, const FitSummary& found, const FitOptions& options) {
   const Hypothesis& start = found.hypothesis;
+  // These derivatives were taken at this very point, so nothing has to be found out.
   const Problem problem(evaluator, start, options, Differences(start, found.jacobian));
   return solve(problem, start, options);
 }
@@ -292,6 +351,8 @@ FitSummary fit_growing(Evaluator& evaluator, const Hypothesis& start, FitOptions
                        std::span<const double> horizons) {
   FitSummary result;
   result.hypothesis = start;
+  // Every part starts where the last one ended, and finds the sizes of its differences anew: over a
+  // longer record the same change of a frequency moves far more.
   for (const double horizon : horizons) {
     options.horizon = horizon;
     result = fit(evaluator, result.hypothesis, options);
@@ -300,6 +361,8 @@ FitSummary fit_growing(Evaluator& evaluator, const Hypothesis& start, FitOptions
 }
 
 Scan scan(Evaluator& evaluator, std::span<const Hypothesis> starts, const FitOptions& options) {
+  // By the data alone, and with no step of any fit. A start is not judged by what could become of
+  // it, so this only parts valleys; what is best here may be the worse one in the end.
   const Eigen::MatrixXd residuals = evaluator.residuals(starts, options);
   Scan result;
   for (Eigen::Index i = 0; i < residuals.cols(); ++i) {
@@ -312,6 +375,8 @@ Scan scan(Evaluator& evaluator, std::span<const Hypothesis> starts, const FitOpt
 Eigen::VectorXd believable_step(const FitSummary& model, const Eigen::VectorXd& change) {
   const Eigen::Index rows = model.jacobian.rows(), n = model.jacobian.cols();
   if (n == 0) return Eigen::VectorXd();
+  // Stacked and solved by orthogonal columns, not by normal equations: modulus and density do
+  // nearly the same to a free swing, and squaring would lose what little parts them.
   Eigen::MatrixXd stacked(rows + n, n);
   stacked << model.jacobian, Eigen::MatrixXd(prior_rows(model).weight.asDiagonal());
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(rows + n);
@@ -322,6 +387,7 @@ Eigen::VectorXd believable_step(const FitSummary& model, const Eigen::VectorXd& 
 Eigen::VectorXd least_squares_step(const Eigen::MatrixXd& jacobian,
                                    const Eigen::VectorXd& residual) {
   if (jacobian.cols() == 0) return Eigen::VectorXd();
+  // Pivots, because an unknown that moves nothing must come out as nothing, and not as infinity.
   return jacobian.colPivHouseholderQr().solve(residual);
 }
 

@@ -14,17 +14,20 @@ using Json = nlohmann::json;
 
 // JSON has no word for what is not finite.
 Json of_number(double value) {
+  // Finite numbers need no word of ours: the library writes them so that they come back to the bit.
   if (std::isfinite(value)) return value;
   return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
 }
 
 double to_number(const Json& json) {
   if (json.is_number()) return json.get<double>();
+  // Standard errors are infinite where data leave a number open, so such words do come.
   const auto word = json.get<std::string>();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return word == "inf" ? infinity : word == "-inf" ? -infinity : std::nan("");
 }
 
+// In the order of memory, with both sizes: a Jacobian of thousands of rows takes no name a number.
 Json of_matrix(const Eigen::MatrixXd& matrix) {
   Json numbers = Json::array();
   for (Eigen::Index i = 0; i < matrix.size(); ++i) numbers.push_back(of_number(matrix.data()[i]));
@@ -35,6 +38,7 @@ Eigen::MatrixXd to_matrix(const Json& json) {
   Eigen::MatrixXd matrix(json.at("rows").get<Eigen::Index>(),
                          json.at("columns").get<Eigen::Index>());
   const Json& numbers = json.at("numbers");
+  // An answer comes from another process and may be cut off. Eigen would read on behind its end.
   if (std::cmp_not_equal(numbers.size(), matrix.size()))
     throw std::runtime_error("a matrix has other numbers than its size says");
   for (Eigen::Index i = 0; i < matrix.size(); ++i)
@@ -48,6 +52,7 @@ Json of_effect(const plant::Effect& effect) {
     json["numbers"][name] = Json::array();
     for (const double value : values) json["numbers"][name].push_back(of_number(value));
   }
+  // Absent where an effect has no place: an empty name would be a curve that the plant lacks.
   if (effect.place) json["curve"] = effect.place->curve, json["at"] = of_number(effect.place->at);
   return json;
 }
@@ -66,6 +71,8 @@ plant::Effect to_effect(const Json& json) {
   return effect;
 }
 
+// Every field, since the fit that follows is to go on as if it had been made here. One that is
+// forgotten would come back with its default, in silence.
 Json of_free(const FreeParameter& free) {
   return {{"effect", free.effect},
           {"name", free.name},
@@ -77,6 +84,7 @@ Json of_free(const FreeParameter& free) {
           {"unit", free.unit},
           {"prior", of_number(free.prior)},
           {"prior_centre", of_number(free.prior_centre)},
+          // By number: both ends are the same program.
           {"vanishes", static_cast<int>(free.vanishes)},
           {"nominal", of_number(free.nominal)},
           {"heading_of", free.heading_of}};
@@ -100,6 +108,7 @@ FreeParameter to_free(const Json& json) {
   return free;
 }
 
+// With residual and derivatives, large as they are: they would else be simulated again.
 Json of_fit(const FitSummary& fit) {
   Json json = {{"name", fit.hypothesis.name},
                {"effects", Json::array()},
@@ -149,12 +158,15 @@ Made parsed(const std::string& text, Made (*make)(const Json&)) {
   try {
     return make(Json::parse(text));
   } catch (const Json::exception& fault) {
+    // Whatever JSON finds wrong is told as what it means here.
     throw std::runtime_error(std::string("a part of a search has no answer: ") + fault.what());
   }
 }
 
 Profile to_profile(const Json& json) {
+  // Ends as unknowns, and not as values: what asked goes on to compute with them.
   Profile profile{to_end(json.at("low")), to_end(json.at("high")), {}};
+  // A better fit ends the round of whoever asked, so it comes back whole.
   if (json.contains("better")) profile.better = to_fit(json.at("better"));
   return profile;
 }
@@ -183,6 +195,7 @@ std::vector<FitSummary> fits_by(FitParts* parts, const std::string& stage, int c
                                 const std::function<FitSummary(int)>& one) {
   std::vector<FitSummary> fits;
   if (!parts)
+    // Without a text in between: as text and back no bit is lost, so both ways give the same fits.
     for (int i = 0; i < count; ++i) fits.push_back(one(i));
   else
     for (const std::string& text :

@@ -20,6 +20,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr int drawn_starts = 4, carried_on = 3, most_rounds = 3;
+// A tenth either way, as in the baseline of a diagnosis.
 constexpr double probe = 0.1;  // of an unknown
 
 struct Nominal {
@@ -31,14 +32,17 @@ struct Nominal {
 Nominal nominal(const plant::MaterialValues& material, const std::string& effect,
                 const FreeParameter& free) {
   const effects::EffectDefinition* known = effects::find_effect(effect);
+  // A person knows a modulus in pascals, and would have to look up what a factor is on.
   if (known && known->material && material.*known->material)
     return {*(material.*known->material), known->material_unit};
   return {1.0, free.unit.empty() ? "1" : free.unit};
 }
 
+// As it was asked for, so that a name can be copied from the answer into the next request.
 std::string name_of(const plant::Effect& effect, const FreeParameter& free) {
   std::string name = effect.name;
   const effects::EffectDefinition* known = effects::find_effect(effect.name);
+  // Modulus, density and damping time are asked for by their names alone.
   if (free.name != "factor" || !known || known->home != effects::Home::material)
     name += "." + free.name;
   const auto numbers = effect.numbers.find(free.name);
@@ -56,6 +60,8 @@ constexpr NoiseRule noise_rule{0.5, false};
 /// One fit on its way.
 class Run {
  public:
+  // The set-up refers to the admitted experiment, which is this object's own: what was left out of
+  // the data there is left out of everything here.
   Run(const Experiment& experiment, const std::vector<Hypothesis>& starts,
       const ParameterFitOptions& options)
       : options_(options),
@@ -68,9 +74,13 @@ class Run {
 
   ParameterFit run() {
     const Clock::time_point began = Clock::now();
+    // First the valley, then mesh and step about it, then the noise that this model leaves.
+    // Intervals need all three: each of them moves the cost's minimum or its curvature.
     choose_start();
     refine();
     setup_.renew_noise(result_.summary.hypothesis);
+    // A profile walks along valleys that the fit did not see, and may come out lower. Then that is
+    // the fit. A few times and not until nothing changes, because a round takes many refits.
     for (int round = 0; round < most_rounds && !stopped(); ++round) {
       say("fitting", 0.35);
       polish();
@@ -91,6 +101,7 @@ class Run {
   static Admission admitted(const Experiment& experiment) {
     Admission admission = admit(experiment);
     Diagnostics diagnostics;
+    // Data that contradict themselves have no parameters. They end as a fault of the file.
     add_refusal(diagnostics, admission);
     if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
     return admission;
@@ -103,12 +114,16 @@ class Run {
 
   // Some starts besides, anywhere within reach of the given ones.
   void draw_starts() {
+    // Drawn with a seed, so that a fit can be repeated. The given starts are what effects usually
+    // are; these look where nobody expects anything.
     Random random(options_.seed);
     const std::size_t given = starts_.size();
     for (int i = 0; i < drawn_starts; ++i) {
+      // Each about another one of the given starts, as far as these go.
       Hypothesis start = starts_[i % given];
       for (int p = 0; p < start.size(); ++p) {
         const FreeParameter& free = start.free[p];
+        // A factor of e, or two of the steps in which an effect's number is counted.
         const double reach = free.logarithmic ? 1.0 : 2.0;
         const double u = free.to_unknown(start.value(p)) + random.uniform(-reach, reach);
         start.set_value(p, std::clamp(free.to_value(u), free.low, free.high));
@@ -119,20 +134,30 @@ class Run {
 
   void choose_start() {
     say("looking from several starts", 0.02);
+    // A model with nothing free is only looked at.
     if (starts_.front().size() > 0) draw_starts();
     result_.starts = static_cast<int>(starts_.size());
     FitOptions first = setup_.options();
+    // Over the first part nothing is out of phase yet, and a cost tells which start is the nearest
+    // one.
     first.horizon = first.settings->budget.baseline_horizon;
     Evaluator with = setup_.evaluator();
     const Scan looked = scan(with, starts_, first);
     std::vector<int> order(starts_.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, {}, [&](int i) { return looked.cost[i]; });
+    // More than the best one: an unfitted start in the right valley may cost more than one on the
+    // slope of a wrong one. All would take too long.
     order.resize(std::min<std::size_t>(order.size(), carried_on));
+    // In the order of their costs, wherever they are computed, so that the result does not depend
+    // on who did.
     std::vector<FitSummary> fits =
         fits_by(options_.parts, "starts", static_cast<int>(order.size()),
                 [&](int i) { return fit(with, starts_[order[i]], first); });
+    // By the data alone. What is asked for by name has no prior.
     std::ranges::stable_sort(fits, {}, &FitSummary::cost);
+    // Asked at the fitted start, where an effect is as large as it seems to be. At its first value
+    // it may move nothing, and be fitted to something.
     keep_what_is_seen(fits.front().hypothesis);
     result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
   }
@@ -145,30 +170,41 @@ class Run {
     for (int p = 0; p < n; ++p) {
       const FreeParameter& free = found.free[p];
       double u = free.to_unknown(found.value(p));
+      // Downwards where upwards would leave the bounds, outside of which an effect means nothing.
       u += u + probe > free.to_unknown(free.high) ? -probe : probe;
       models.push_back(found);
       models.back().set_value(p, free.to_value(u));
     }
     for (int p = 0; p < n; ++p) {
       models.push_back(found);
+      // All the way back to the first start, for a number that no small step moves anything with
+      // where it stands now.
       models.back().set_value(p, starts_.front().value(p));
     }
     Evaluator with = setup_.evaluator();
+    // Over the whole records: what the first part does not show a later one may.
     const Eigen::MatrixXd r = with.residuals(models, setup_.options());
     const auto moves = [&](int model) {
+      // The largest change of any sample: a number may be seen in one sample alone.
       return (r.col(model) - r.col(0)).cwiseAbs().maxCoeff() >=
              setup_.options().settings->accuracy.seen;
     };
     Hypothesis& kept = result_.summary.hypothesis;
     kept = found;
+    // Freedom is given back to each that earns it. The effects stay whole: what is not fitted still
+    // acts as it was given.
     kept.free.clear();
     for (int p = 0; p < n; ++p) {
       const FreeParameter& free = found.free[p];
       const bool seen = moves(1 + p);
+      // With the whole of its effect, whose other numbers were fitted about a value that means
+      // nothing.
       if (!seen) kept.effects[free.effect] = starts_.front().effects[free.effect];
       if (seen || moves(1 + n + p))
         kept.free.push_back(free);
       else
+        // Told at the end as what these data cannot see. Silence would look like a number that was
+        // forgotten.
         unseen_.push_back(free);
     }
   }
@@ -178,7 +214,11 @@ class Run {
         result_.summary,
         {[this](int round) { say("checking our own numerical error", 0.1 + 0.05 * round); }, {}});
     result_.numerical_error = check.largest;
+    // Counted before the mesh's share joins them. That one is a nuisance that nobody asked for, and
+    // has no interval.
     asked_ = result_.summary.hypothesis.size();
+    // Which mesh the modulus came with is not known. Without this freedom an interval would leave
+    // out the largest doubt of precise data.
     result_.summary.hypothesis.add(mesh_nuisance());
     Evaluator with = setup_.evaluator();
     result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
@@ -191,14 +231,19 @@ class Run {
     FitOptions fine = setup_.options();
     fine.least_step = std::min(fine.least_step, 0.01);
     result_.summary = fit(with, result_.summary.hypothesis, fine);
+    // More than noise is left where the model is not the plant. Intervals of noise alone would then
+    // be too sure of it by this factor.
     result_.spread =
         std::sqrt(std::max(1.0, 2.0 * result_.summary.cost / std::max(1, setup_.samples())));
   }
 
   // True: a better fit turned up on the way, and the intervals must be done again.
   bool profile_all() {
+    // Intervals about what was not the minimum say nothing.
     result_.parameters.clear();
     std::vector<Profile> profiles;
+    // Other processes do all profiles at once. Here they are made one by one, so that a better fit
+    // ends the round as soon as it is found.
     if (options_.parts)
       profiles =
           profiles_by(*options_.parts, "profiles", asked_, [this](int p) { return profiled(p); });
@@ -208,6 +253,8 @@ class Run {
       const Profile found = profiles.empty() ? profiled(p) : profiles[p];
       result_.refits += found.low.refits + found.high.refits;
       if (found.better) {
+        // Its values alone. The fit that follows makes the residual and the derivatives anew, with
+        // the freedom of all its numbers.
         result_.summary.hypothesis = found.better->hypothesis;
         return true;
       }
@@ -225,10 +272,14 @@ class Run {
   Profile profiled(int p) {
     Evaluator with = setup_.evaluator();
     return profile(with, result_.summary, p, setup_.options(),
+                   // The unit in which a deviance counts is what the model leaves, where that is
+                   // more than noise.
                    deviance95 * result_.spread * result_.spread);
   }
 
   FittedParameter described(const FreeParameter& free) const {
+    // A hypothesis of this number alone, so that headings, places and components are read as fits
+    // read them.
     Hypothesis alone;
     alone.effects = result_.summary.hypothesis.effects;
     alone.free = {free};
@@ -238,6 +289,7 @@ class Run {
     made.name = name_of(effect, free);
     made.unit = unit.unit;
     made.value = unit.value * alone.value(0);
+    // Until an interval is known all that the number may be.
     made.low = unit.value * free.low;
     made.high = unit.value * free.high;
     return made;
@@ -254,11 +306,14 @@ class Run {
     made.high_open = found.high.at_bound;
     made.at_bound =
         std::ranges::find(result_.summary.at_bound, p) != result_.summary.at_bound.end();
+    // Open on one side is still a finding, such as "at least so stiff". Open on both is none.
     made.seen = !(made.low_open && made.high_open);
     result_.parameters.push_back(made);
   }
 
   void measure_trials() {
+    // Of trials held out, too: their error beside that of the fitted ones tells whether the numbers
+    // carry over.
     const auto predicted = setup_.predictions(std::span(&result_.summary.hypothesis, 1)).front();
     const std::vector<int>& check = setup_.check_trials();
     for (int t = 0; t < static_cast<int>(predicted.size()); ++t)
@@ -268,6 +323,7 @@ class Run {
   }
 
   ParameterFitOptions options_;
+  // Before what refers to it: members are made in this order.
   Admission admission_;
   std::vector<Hypothesis> starts_;
   FitSetup setup_;

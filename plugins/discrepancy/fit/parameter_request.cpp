@@ -13,8 +13,10 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Each is simulated over the first part of all records before the first fit.
 constexpr int most_starts = 24;
 
+// Kept as it was written, too, because a refusal has to quote it.
 struct Word {
   std::string text, effect, parameter;
   std::optional<std::string> value;
@@ -22,18 +24,22 @@ struct Word {
 };
 
 [[noreturn]] void refuse(const std::string& word, const std::string& why) {
+  // Usage, and not a fault of a file: what is wrong was typed, and is quoted as it was.
   throw UsageError("fit " + word + ": " + why);
 }
 
 std::optional<double> number(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  // To the last character: "0.7m" would be read as 0.7 and its unit be lost. And "nan" is a number
+  // to the library.
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
   return value;
 }
 
 plant::CurvePlace parse_place(const std::string& word, const std::string& text,
                               const Experiment& experiment) {
+  // The last one: whatever a curve's name has in it, what stands behind it has none.
   const std::size_t colon = text.rfind(':');
   const auto at = colon == std::string::npos ? std::nullopt : number(text.substr(colon + 1));
   if (!at || *at < 0.0 || *at > 1.0)
@@ -41,6 +47,7 @@ plant::CurvePlace parse_place(const std::string& word, const std::string& text,
   const plant::CurvePlace place{text.substr(0, colon), *at, {}};
   const auto& curves = experiment.plant.curves;
   if (std::ranges::none_of(curves, [&](const auto& c) { return c.name == place.curve; }))
+    // Here and not by the simulator, which would refuse it later and without the word.
     refuse(word, "the plant has no curve \"" + place.curve + "\"");
   return place;
 }
@@ -49,6 +56,7 @@ Word parse(const std::string& text, const Experiment& experiment) {
   Word word;
   word.text = text;
   std::string rest = text;
+  // The place first. It stands behind a value, too, and would be taken for a part of it.
   if (const std::size_t sign = rest.find('@'); sign != std::string::npos) {
     word.place = parse_place(text, rest.substr(sign + 1), experiment);
     rest.resize(sign);
@@ -57,24 +65,30 @@ Word parse(const std::string& text, const Experiment& experiment) {
     word.value = rest.substr(sign + 1);
     rest.resize(sign);
   }
+  // Values and places are gone by now, whose numbers have points, too.
   const std::size_t dot = rest.find('.');
   word.effect = rest.substr(0, dot);
+  // Modulus, density and damping have one number, and nobody would guess its name.
   word.parameter = dot == std::string::npos ? "factor" : rest.substr(dot + 1);
   const Hypothesis base = baseline();
   const bool material =
       std::ranges::any_of(base.effects, [&](const auto& e) { return e.name == word.effect; });
   const effects::EffectDefinition* kind = effects::find_effect(word.effect);
+  // The name of an effect alone could mean any of its numbers, so it is not taken for all of them.
   if (!kind || (dot == std::string::npos && !material))
     refuse(text,
            "expected youngs_modulus, density, damping_time, or EFFECT.PARAMETER of a known "
            "effect");
+  // A place is no parameter of an effect, but a fit may move it like one.
   const bool moves = kind->needs_place && word.parameter == "at";
   std::string known;
+  // A refusal says what would have been right.
   for (const effects::EffectParameter& p : kind->parameters)
     known += (known.empty() ? "" : ", ") + p.name;
   if (!moves && std::ranges::none_of(kind->parameters,
                                      [&](const auto& p) { return p.name == word.parameter; }))
     refuse(text, word.effect + " has no \"" + word.parameter + "\", expected one of " + known);
+  // A place that is ignored would look as if the effect had been put there.
   if (word.place && !kind->needs_place) refuse(text, word.effect + " has no place");
   return word;
 }
@@ -86,6 +100,8 @@ struct Group {
   std::vector<Word> words;
 };
 
+// Places come first: a word without one belongs to all of its effect's places, in whatever order
+// they were given.
 std::vector<Group> group(const std::vector<Word>& words) {
   std::vector<Group> groups;
   const auto find = [&](const Word& w) {
@@ -95,6 +111,7 @@ std::vector<Group> group(const std::vector<Word>& words) {
   for (const Word& w : words)
     if (w.place && find(w) == groups.end()) groups.push_back({w.effect, w.place, {}});
   for (const Word& w : words) {
+    // Only where no word of this effect has a place does it stand without one.
     const bool placed = std::ranges::any_of(
         groups, [&](const Group& g) { return g.effect == w.effect && g.place; });
     if (!placed && find(w) == groups.end()) groups.push_back({w.effect, {}, {}});
@@ -105,6 +122,7 @@ std::vector<Group> group(const std::vector<Word>& words) {
 }
 
 std::vector<Hypothesis> material_starts(const std::string& name) {
+  // A baseline's entry keeps its bounds, which a verdict uses as well.
   const Hypothesis all = baseline();
   std::vector<Hypothesis> starts;
   for (int p = 0; p < all.size(); ++p) {
@@ -114,7 +132,9 @@ std::vector<Hypothesis> material_starts(const std::string& name) {
     one.effects = {effect};
     one.free = {all.free[p]};
     one.free[0].effect = 0;
+    // A fit that pulled a density back to what is known beforehand would return what was put in.
     one.free[0].prior = 0.0;  // what is asked for by name is judged by the data alone
+    // As given, and two either way in equal steps of the logarithm.
     for (const double factor : {1.0, 0.55, 0.75, 1.35, 1.9}) {
       one.set_value(0, factor);
       starts.push_back(one);
@@ -126,13 +146,17 @@ std::vector<Hypothesis> material_starts(const std::string& name) {
 void give(const Word& word, plant::Effect& effect, const effects::EffectParameter& parameter) {
   if (parameter.size == 0) {
     const auto& known = parameter.words;
+    // An empty list allows any word, such as the name of a marker.
     if (!known.empty() && std::ranges::find(known, *word.value) == known.end())
       refuse(word.text, "is not one of the words that it may be");
     effect.words[word.parameter] = *word.value;
     return;
   }
+  // A word that is no number is refused below, with the same sentence as a number out of bounds.
   const auto value = number(*word.value);
+  // One word of a command holds one number, and a part of a direction would say nothing.
   if (parameter.size != 1) refuse(word.text, "a vector can be fitted, not given");
+  // The same bounds as in a plant file. What a reader refuses is not let in by this door.
   const io::Bounds& bounds = parameter.bounds;
   if (!value || *value < bounds.minimum || *value > bounds.maximum ||
       (bounds.open_minimum && *value == bounds.minimum))
@@ -141,6 +165,8 @@ void give(const Word& word, plant::Effect& effect, const effects::EffectParamete
 }
 
 bool is_of(const FreeParameter& free, const std::string& parameter) {
+  // A horizontal direction is fitted as its angle, so that it stays a unit vector. Who asks for it
+  // uses the file's word.
   return free.name == parameter || (free.name == "heading" && parameter == "direction");
 }
 
@@ -148,15 +174,19 @@ bool is_of(const FreeParameter& free, const std::string& parameter) {
 Hypothesis adapted(Hypothesis start, const Group& group) {
   const effects::EffectDefinition* kind = effects::find_effect(group.effect);
   plant::Effect& effect = start.effects[0];
+  // A diagnosis tries several places; here one was asked for.
   if (group.place) effect.place = *group.place;
   for (const Word& word : group.words)
     if (word.value)
       for (const effects::EffectParameter& p : kind->parameters)
         if (p.name == word.parameter) give(word, effect, p);
+  // What was not named stays at the diagnosis's first value. check_words() sees to it that no size
+  // is among these in silence.
   std::erase_if(start.free, [&](const FreeParameter& free) {
     return std::ranges::none_of(
         group.words, [&](const Word& w) { return !w.value && is_of(free, w.parameter); });
   });
+  // Intervals are of what these data say.
   for (FreeParameter& free : start.free) free.prior = 0.0;
   return start;
 }
@@ -169,15 +199,19 @@ void check_words(const Group& group, const std::vector<Hypothesis>& starts) {
   };
   for (const Word& word : group.words) {
     if (word.value) continue;
+    // Any start tells it: starts of one effect differ in values and places, not in what is free.
     const bool fits = std::ranges::any_of(starts.front().free, [&](const FreeParameter& free) {
       return is_of(free, word.parameter);
     });
+    // Told with what would do. Some parameters have no unknown in any fit.
     if (!fits) refuse(word.text, "cannot be fitted; give it as " + word.text + "=VALUE");
   }
   if (kind->needs_place && !group.place)
+    // A diagnosis looks for the place. Its first guess would be taken for what was asked.
     refuse(group.words.front().text, group.effect + " needs a place: @CURVE:AT");
   // A size that nobody speaks of would be a diagnosis's first guess, and silently so.
   for (const effects::EffectParameter& p : kind->parameters)
+    // The curvature k0 only scales another number, and is a diagnosis's own.
     if (p.required && p.name != "k0" && !spoken_of(p.name))
       refuse(group.words.front().text, group.effect + " also needs " + p.name + ": name it (" +
                                            group.effect + "." + p.name + ") or give it (" +
@@ -187,13 +221,18 @@ void check_words(const Group& group, const std::vector<Hypothesis>& starts) {
 std::vector<Hypothesis> starts_of(const Group& group, const std::vector<Cause>& causes) {
   std::vector<Hypothesis> starts = material_starts(group.effect);
   for (const Cause& cause : causes)
+    // The same starts as a diagnosis, so that both find the same valleys. Those led by symptoms are
+    // not among them: no symptom was looked for.
     if (cause.name == group.effect) starts = cause.starts;
   if (starts.empty())
+    // An effect without a start cannot be seen here, whoever asks for it. A fit of it would end
+    // anywhere and say so with an interval.
     refuse(group.words.front().text, group.effect + " cannot be fitted to this experiment");
   check_words(group, starts);
   std::vector<Hypothesis> result;
   for (const Hypothesis& start : starts) {
     const Hypothesis one = adapted(start, group);
+    // Starts that differed in what is given now are one, and would be fitted several times.
     const bool known = std::ranges::any_of(
         result, [&](const Hypothesis& other) { return other.effects[0] == one.effects[0]; });
     if (!known) result.push_back(one);
@@ -207,11 +246,18 @@ std::vector<Hypothesis> requested_starts(const Experiment& experiment,
                                          const std::vector<std::string>& words) {
   std::vector<Word> parsed;
   for (const std::string& word : words) {
+    // As text, because the same parameter at two places is no repetition.
     if (std::ranges::any_of(parsed, [&](const Word& w) { return w.text == word; }))
+      // The same number twice would be two unknowns for one thing, and neither would have an
+      // interval.
       refuse(word, "is named twice");
     parsed.push_back(parse(word, experiment));
   }
+  // More than a diagnosis tries: an effect may be no candidate there, and still be asked for by a
+  // person who has reasons.
   const std::vector<Cause> causes = fitted_causes(experiment, scales_of(experiment));
+  // One model that is empty, so that the first effect's starts are paired as those of every other
+  // are.
   std::vector<Hypothesis> all{Hypothesis{}};
   for (const Group& one : group(parsed)) {
     const std::vector<Hypothesis> starts = starts_of(one, causes);
@@ -221,6 +267,8 @@ std::vector<Hypothesis> requested_starts(const Experiment& experiment,
     const std::size_t count =
         product ? all.size() * starts.size() : std::max(all.size(), starts.size());
     for (std::size_t i = 0; i < count; ++i) {
+      // Of unequal lists the shorter one begins again, so that every start of each is used at least
+      // once.
       longer.push_back(all[product ? i / starts.size() : i % all.size()]);
       longer.back().add(starts[i % starts.size()]);
     }

@@ -29,7 +29,9 @@ ProfileEnd profile_end(const Deviance& deviance, double best, double bound, doub
 /// quantile of one degree of freedom (Wilks 1938).
 inline constexpr double deviance95 = 3.841;
 
-/// 1/2 sum of squares that a fit minimises: its cost and what its priors add.
+/// 1/2 sum of squares: a fit's cost and what its priors add, each by its own deviation. A fit
+/// itself minimises the priors times the square of its spread, so the two differ where that is
+/// above 1.
 double objective(const FitSummary& fit);
 
 /// The interval of one free parameter of a fit by profile likelihood (Venzon and Moolgavkar 1988):

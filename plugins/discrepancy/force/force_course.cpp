@@ -50,6 +50,8 @@ ForceCourse course_of_history(const ForceSpace& space, const ForcePath& path,
       // Coefficients are components across the curve. What acts along it was not asked for.
       for (std::size_t a = 0; a < space.axes.size(); ++a)
         force += history[knots.first + static_cast<int>(a) * knots.count + i] * space.axes[a];
+      // Along the path of the place with the force in it: what it does to the plant as it moved,
+      // not as it would have moved without.
       moments.push_back({force, path.velocity[k].row(i).transpose(), knots.interval});
     }
   }
@@ -64,7 +66,8 @@ ForceCourse course_of_law(Simulator& simulator, const Hypothesis& model,
   std::vector<Simulator::Request> requests;
   for (std::size_t t = 0; t < trials.size(); ++t) {
     // The law is heard while it is simulated: its place may lie between markers, where nobody else
-    // knows the motion. Each trial has a list of its own, as trials run side by side.
+    // knows the motion. Each trial has a list of its own, as trials run side by side. The last
+    // force is the one that was found. A model may have others before it.
     auto& law = variants[t].forces.back().law;
     law = [plain = law, &moments = heard[t], &before = last[t]](double time, const Vec3& x,
                                                                 const Vec3& v) -> Vec3 {
@@ -76,7 +79,9 @@ ForceCourse course_of_law(Simulator& simulator, const Hypothesis& model,
     };
     requests.push_back({&variants[t], trials[t]});
   }
+  // For what the laws heard. The predictions are not needed.
   simulator.run(requests);
+  // One course over all trials: what a force does is told once.
   std::vector<Moment> all;
   for (const std::vector<Moment>& moments : heard)
     all.insert(all.end(), moments.begin(), moments.end());
@@ -94,9 +99,12 @@ std::string when_it_acts(const ForceCourse& course, const std::string& kind) {
 }
 
 std::string what_it_does(const ForceCourse& course) {
+  // Half of its turnover: below that a force gives back most of what it takes, as springs and
+  // constant pushes do.
   const std::string what = course.work < -0.5  ? "it takes energy out"
                            : course.work > 0.5 ? "it drives the plant"
                                                : "it gives back about what it takes";
+  // With the number, as the words are three for a whole range.
   return what + text(" (work over turnover %.2f)", course.work);
 }
 

@@ -55,6 +55,7 @@ class Library {
   }
 
  private:
+  // As an entry of a hypothesis, so that a refit begins with it without any translation.
   plant::Effect effect(const std::string& kind) const {
     plant::Effect force;
     force.name = missing_force;
@@ -70,6 +71,7 @@ class Library {
     const double size = c.dot(space_.normal * c), right = c.dot(space_.right);
     // A string does not push and a drag does not drive, so a negative multiple is another law.
     factor = size > 0.0 ? std::max(0.0, right / size) : 0.0;
+    // Of a parabola through no force: its top is half of slope times way.
     return 0.5 * factor * right;
   }
 
@@ -126,10 +128,12 @@ class Library {
     // A spring that pushes away from a point is none of the library. What leaves an equilibrium
     // would be an unstable plant.
     if (f[2] <= 0.0) return;
+    // A constant force beside a spring is a spring whose end is elsewhere.
     const Vec3 offset = (f[0] * space_.axes[0] + f[1] * space_.axes[1]) / f[2];
     // A spring that is at rest where the place is has no distance, and a refit needs one above
     // zero.
     const double distance = std::max(offset.norm(), 1.0e-3 * scales_.length);
+    // Its two numbers cannot be told from one there.
     if (distance > 20.0 * scales_.length) return;  // a constant push
     plant::Effect force = aimed("spring", offset.normalized());
     force.numbers["distance"] = {distance};
@@ -184,6 +188,8 @@ class Library {
   void unilateral(const std::string& kind, const std::vector<double>& distances) {
     plant::Effect best;
     double most = 0.0;
+    // A grid over all that the force is not linear in. From a single start a threshold has no slope
+    // towards the right one, where the place never comes to it.
     for_directions(kind == "string", [&](const Vec3& towards) {
       plant::Effect force = aimed(kind, towards);
       force.numbers["stiffness"] = {1.0};
@@ -215,6 +221,7 @@ class Library {
       force.numbers["size"] = {1.0};
       // Magnets and electric charges act from near by: farther ones are constant pushes.
       for (const double distance : {0.1, 0.2, 0.4})
+        // A range beyond the distance is a pull that hardly changes; the search may still go there.
         for (const double range : {0.05, 0.2}) {
           force.numbers["distance"] = {distance * scales_.length};
           force.numbers["range"] = {range * scales_.length};
@@ -232,6 +239,7 @@ class Library {
   void keep(const plant::Effect& force, plant::Effect& best, double& most) const {
     double factor = 0.0;
     const double gain = single(force, factor);
+    // Of equal ones the first is kept.
     if (gain <= most) return;
     most = gain;
     best = force;
@@ -241,10 +249,13 @@ class Library {
   // A pattern search needs no derivatives, and laws with a threshold have none at it.
   void finish(plant::Effect best, double most, const std::vector<Knob>& knobs) {
     double part = 1.0;
+    // Whether a step helped or not it becomes smaller: six rounds end at a thirteenth of the first,
+    // near enough for a refit.
     for (int round = 0; round < search_rounds; ++round, part *= 0.6)
       for (const Knob& knob : knobs)
         for (const double sign : {1.0, -1.0}) {
           plant::Effect moved = best;
+          // A length by ratio, so that it cannot become negative.
           double& x = moved.numbers.at(knob.name)[knob.component];
           x = knob.relative ? x * std::pow(1.0 + knob.step, sign * part)
                             : x + sign * part * knob.step;
@@ -259,8 +270,10 @@ class Library {
 
   // One frequency, the same phase in every trial (time counts from each trial's beginning).
   void periodic() {
+    // A frequency is looked for before it is fitted, since the gain has many tops over it.
     double slowest = 1.0e9;
-    // Knots hear up to half of their own rate.
+    // Knots hear up to half of their own rate. The slowest of the trials, since the force has one
+    // frequency in all of them.
     for (const ForceKnots& knots : space_.knots) slowest = std::min(slowest, 0.5 / knots.interval);
     // A record of length T parts frequencies 1/T apart. Five a line do not miss the top of one.
     const double step = 0.2 / scales_.duration;
@@ -278,7 +291,8 @@ class Library {
       if (gain <= most) return;
       most = gain, best = frequency, kept = factors;
     };
-    // Slower than one period a trial, a push cannot be told from one that drifts.
+    // Slower than one period a trial, a push cannot be told from one that drifts. Up to 0.7 of that
+    // rate: near the limit a sine between knots is a triangle of another size.
     for (double f = 1.0 / scales_.duration; f < 0.7 * slowest; f += step) try_frequency(f);
     const double near = best;
     // Then finely about the best one, since the refit has a narrow valley to find.
@@ -288,6 +302,7 @@ class Library {
     force.numbers["frequency"] = {best};
     force.numbers["sine"] = list(kept[0] * space_.axes[0] + kept[1] * space_.axes[1]);
     force.numbers["cosine"] = list(kept[2] * space_.axes[0] + kept[3] * space_.axes[1]);
+    // Two components of sine and of cosine, and the frequency.
     add(force, most, 5);
   }
 
@@ -299,6 +314,7 @@ class Library {
       if (std::string(kind) == "friction") force.numbers["speed"] = {slow};
       double factor = 0.0;
       const double gain = single(force, factor);
+      // What drives the plant by its own speed would be a plant that shakes itself.
       if (factor <= 0.0) continue;
       scale_force(force, factor);
       add(force, gain, 1);
@@ -316,6 +332,7 @@ class Library {
         // one.
         for (int i = 1; i < space_.knots[k].count - 1; ++i) {
           const double interval = space_.knots[k].interval, time = i * interval;
+          // Other numbers of them are taken as the knots have them; the refit moves them.
           const auto size = [&](double t, int) {
             return jolt ? std::max(0.0, 1.0 - std::abs(t - time) / interval)
                         : (t > time - 0.5 * interval ? 1.0 : 0.0);
@@ -332,6 +349,7 @@ class Library {
           // size.
           best.numbers["time"] = {jolt ? time : time - 0.5 * interval};
           if (jolt) best.numbers["length"] = {interval};
+          // By its name, as a file of a hypothesis has it: indices are those of one experiment.
           best.words["trial"] = scales_.trials[space_.knots[k].trial];
         }
       // Its trial is a choice, too.

@@ -23,6 +23,7 @@ std::string family_of(const plant::Effect& force) {
 // A spring as strong as the push at a distance of the end, so that the refit begins where the push
 // was.
 plant::Effect near_end(plant::Effect force, const ForcePlace& place, double distance) {
+  // A stop has its point and direction already; a push has neither.
   if (kind_of(force) == "constant") {
     const Vec3 push(force.numbers.at("force").data());
     const Vec3 about = place.path.position.front().row(0).transpose();
@@ -79,18 +80,21 @@ ForceRefits::ForceRefits(Evaluator& evaluator, const FitSummary& model, const Fi
       budget_(options.fit.settings->budget) {}
 
 void ForceRefits::run(std::vector<ForceTerm> laws) {
+  // All of them are kept: other places of a law are starts of its refit.
   linear_ = std::move(laws);
   // Each takes a fit of all numbers by the fine simulator, so only the best go in.
   for (const ForceTerm& law : worth_refitting()) refit(law);
   if (refitted_.empty()) return;
   sort();
   for (const ForceTerm& law : close_ones())
+    // After all first ones, so that it is known which of them are near the best.
     if (const std::optional<ForceTerm> other = with_other_end(law)) refit(*other);
   sort();
   // Corrections were taken at a model without the force. What won is fitted once more with those of
   // its own.
   if (!options_.correct_at) return;
   options_.correct_at(best_);
+  // Only what is told is fitted again. The others keep what they gained with the old ones.
   best_ = discrepancy::refit(evaluator_, best_, options_.fit);
   judge(best_, refitted_.front());
 }
@@ -106,7 +110,7 @@ std::vector<ForceTerm> ForceRefits::worth_refitting() const {
   const plant::Effect& first = linear_.front().force;
   const double best = linear_.front().evidence;
   // Linear evidence errs by a part of itself: the limit is a share of the best for large forces,
-  // and some nats for small ones.
+  // and some nats for small ones. Weak laws are not refitted however near the best they are.
   const double least = std::max(
       budget_.law_evidence, std::min(best - budget_.law_within, (1.0 - budget_.law_share) * best));
   std::vector<ForceTerm> chosen;
@@ -129,7 +133,8 @@ std::vector<ForceTerm> ForceRefits::worth_refitting() const {
 void ForceRefits::refit(ForceTerm law) {
   FitSummary found = fitted(law);
   judge(found, law);
-  // All that were refitted are kept: the verdict says which others do as well.
+  // All that were refitted are kept: the verdict says which others do as well. By evidence: a law
+  // with more numbers has to earn them.
   const bool better = refitted_.empty() || law.evidence > best_evidence_;
   refitted_.push_back(law);
   if (!better) return;
@@ -150,6 +155,7 @@ FitSummary ForceRefits::fitted(const ForceTerm& law) {
         other.evidence > (1.0 - budget_.law_place_share) * law.evidence &&
         std::cmp_less(places.size(), budget_.law_looks))
       places.push_back(other.force);
+  // One place needs no look, and goes all the way at once.
   if (places.size() == 1) return fit(evaluator_, best_start(law.force), few);
   FitOptions look = few;
   look.iterations = std::min(budget_.look_iterations, few.iterations);
@@ -188,7 +194,9 @@ Hypothesis ForceRefits::best_start(const plant::Effect& force) {
 }
 
 Hypothesis ForceRefits::with(const plant::Effect& force) const {
+  // About the centre, where the linear response was taken and the law is right.
   Hypothesis start = centre_.hypothesis;
+  // The law's place may lie between markers. Its history is known at the nearest one.
   const ForcePlace& place = nearest(*force.place);
   if (start.size() > 0)  // which have taken what they could of the force
     start.set_unknowns(start.unknowns() +
@@ -207,6 +215,7 @@ void ForceRefits::judge(const FitSummary& found, ForceTerm& law) const {
   law.evidence = law.gain - cost_of(law.parameters + 1, scales_.samples, scales_.choices);
   // As it was fitted, with its place. It was added last.
   law.force = found.hypothesis.effects.back();
+  // Each as it comes, because a search for a force takes minutes.
   if (options_.note)
     options_.note("Refitted: " + describe(law.force) + " at " + place_text(*law.force.place) +
                   text(", evidence %.4g", law.evidence));
@@ -217,6 +226,7 @@ std::vector<ForceTerm> ForceRefits::close_ones() const {
   const double least = (1.0 - budget_.law_close_share) * refitted_.front().evidence;
   std::vector<ForceTerm> close;
   for (const ForceTerm& law : refitted_)
+    // A share of it, since large gains are missed by more nats.
     if (law.evidence >= least) close.push_back(law);
   return close;
 }
@@ -233,6 +243,7 @@ std::optional<ForceTerm> ForceRefits::with_other_end(const ForceTerm& law) const
   // Once a curve is enough: the refit walks along it.
   if (kind.empty() || std::ranges::any_of(refitted_, tried)) return {};
   ForceTerm other = law;
+  // Its gain is still that of the other law. refit() judges it anew.
   other.force = is_string ? as_stop(law.force, options_.fit.settings->accuracy.least_across)
                           : near_end(law.force, nearest(*law.force.place),
                                      options_.fit.settings->accuracy.far_end * scales_.length);

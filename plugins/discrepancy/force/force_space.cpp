@@ -18,12 +18,15 @@ constexpr double response_dt = 1.0 / 240;
 constexpr double wanted_bend = 0.03;  // of a curve's length: well above the solver's tolerance
 constexpr double memory = 0.3;        // s, of a force of no particular law
 
+// Entries of its part of a residual, measured or not: columns are laid out as residuals are.
 int samples_of(const DataSet& data, int trial) {
   return data.size(std::span(&trial, 1));
 }
 
 // Rises from the knot before and falls to the next; the first one also acts before time 0.
 double hat(double t, double middle, double interval) {
+  // Hats add up to any course that is linear between knots, and each of them is felt for a short
+  // time only.
   return std::max(0.0, 1.0 - std::abs(t - middle) / interval);
 }
 
@@ -63,6 +66,7 @@ ForceResponses::ForceResponses(const Experiment& experiment, const DataSet& data
     ForceKnots knots;
     knots.trial = trial;
     knots.interval = std::max(least_interval, duration / most_knots);
+    // A duration that is a whole number of knots must not get one more by rounding.
     knots.count = static_cast<int>(std::ceil(duration / knots.interval - 1e-9)) + 1;
     knots_.push_back(knots);
     requests.push_back({&variant_, trial});
@@ -93,6 +97,7 @@ double ForceResponses::push_size(int marker, const std::vector<Vec3>& axes) {
   // A hundredth of the weight bends no plant far, and some plants much: so the push is first tried,
   // and then scaled.
   const double trial_size = 0.01 * 9.81 * scales.mass;
+  // The largest move of any marker and not of this one: what bends there may swing farther out.
   double most = 0.0;
   std::vector<Variant> variants(axes.size(), variant_);
   std::vector<Simulator::Request> requests;
@@ -101,6 +106,7 @@ double ForceResponses::push_size(int marker, const std::vector<Vec3>& axes) {
     variants[a].forces.push_back({experiment_.markers[marker].place,
                                   [=](double, const Vec3&, const Vec3&) { return push; },
                                   {}});
+    // Constant, since that bends a plant most: a push for a tenth of a second moves it less.
     for (const int trial : trials_) requests.push_back({&variants[a], trial});
   }
   const std::vector<Prediction> pushed = simulator_.run(requests);
@@ -127,6 +133,7 @@ Eigen::MatrixXd ForceResponses::simulate(const ForceKnots& knots, double size, F
                                     return hat(t, middle, interval) * push;
                                   },
                                   {}});
+    // In its own trial alone. What happens in one trial is not felt in another.
     requests.push_back({&variants[c], knots.trial});
   }
   const std::vector<Prediction> pushed = simulator_.run(requests);
@@ -142,12 +149,14 @@ Eigen::MatrixXd ForceResponses::simulate(const ForceKnots& knots, double size, F
     // A column of zeros: a push that the plant does not survive explains nothing.
     if (!pushed[c].healthy) continue;
     data_.residual(knots.trial, pushed[c], 1.0, after);
+    // What a newton adds to the prediction, as residuals are data less prediction.
     columns.col(c) = (before - after) / size;
     const Eigen::MatrixXd moved =
         (pushed[c].markers - plain.markers).middleCols(3 * space.marker, 3) / size;
     // Laws depend on where the place is. What the force itself moves it by is part of that.
     motion.col(c) = moved.reshaped();
   }
+  // Kept beside the normal equations, because a law needs to know where its place went.
   space.motion.push_back(std::move(motion));
   return columns;
 }
@@ -182,6 +191,7 @@ void ForceResponses::add(const Eigen::MatrixXd& columns, const ForceKnots& knots
   // Trials do not share samples, so there are no blocks between them.
   space.normal.block(knots.first, knots.first, count, count).noalias() =
       columns.transpose() * columns;
+  // Of the fitted model's residual: it is what the force has to explain.
   space.right.segment(knots.first, count).noalias() =
       columns.transpose() * model_.residual.segment(row, rows);
   // What both force and parameters can explain must not be counted twice.
@@ -194,6 +204,7 @@ void ForceResponses::add(const Eigen::MatrixXd& columns, const ForceKnots& knots
 void ForceResponses::finish(ForceSpace& space, const Eigen::MatrixXd& coupling) const {
   const Eigen::MatrixXd& jacobian = model_.jacobian;
   if (jacobian.cols() == 0) return;
+  // What the data and what is known say of the parameters together.
   Eigen::MatrixXd information = jacobian.transpose() * jacobian;
   for (int p = 0; p < model_.hypothesis.size(); ++p) {
     const double prior = model_.hypothesis.free[p].prior;
@@ -203,6 +214,7 @@ void ForceResponses::finish(ForceSpace& space, const Eigen::MatrixXd& coupling) 
     if (prior > 0.0) information(p, p) += 1.0 / (prior * prior);
   }
   const Eigen::LDLT<Eigen::MatrixXd> solver(information);
+  // How the parameters would follow each coefficient, to first order.
   const Eigen::MatrixXd moved = solver.solve(coupling.transpose());
   // Refits start with parameters that have already given way.
   space.shift = -moved;
@@ -217,15 +229,19 @@ ForceSpace ForceResponses::force_at(int marker) {
   space.marker = marker;
   space.place = experiment_.markers[marker].place;
   space.axes = axes_at(marker);
+  // Of each marker: near the foot of a stem it takes a thousand times the force of its tip.
   const double size = push_size(marker, space.axes);
   Eigen::MatrixXd coupling(space.size(), model_.jacobian.cols());
   for (const ForceKnots& knots : space.knots)
+    // Trial by trial, so that predictions of one are gone before the next: a trial has a hundred of
+    // them.
     add(simulate(knots, size, space), knots, space, coupling);
   finish(space, coupling);
   return space;
 }
 
 ForceSpace ForceResponses::displacement_of(const std::vector<int>& markers) const {
+  // Residuals are linear in it, so any step that is no rounding will do.
   constexpr double step = 1.0e-3;  // m
   // A camera that moves is not bound to the curve's two directions.
   ForceSpace space = prepared(3);
@@ -270,8 +286,10 @@ ForcePath ForceResponses::path(const ForceSpace& space, const Eigen::VectorXd& h
     x += smoothed(seen.value.middleCols(3 * space.marker, 3) - x, time, 0.5 * knots.interval);
     Eigen::MatrixXd position(knots.count, 3), velocity(knots.count, 3);
     for (int i = 0; i < knots.count; ++i) {
+      // The last knot may lie after the last sample.
       const double t = std::min(i * knots.interval, time.back());
       const auto next = std::upper_bound(time.begin(), time.end(), t) - time.begin();
+      // At the ends the nearest pair, beyond which a line goes on.
       const auto b = std::clamp<std::ptrdiff_t>(next, 1, rows - 1), a = b - 1;
       // Samples need not be even.
       const double share = (t - time[a]) / (time[b] - time[a]);
@@ -298,6 +316,7 @@ FreeForce free_history(const ForceSpace& space) {
         // A memory of some tenths of a second: slower than noise, and as fast as the knots can
         // follow.
         correlation(i, j) = std::exp(-std::abs(i - j) * knots.interval / memory);
+    // By its root, which gives the inverse and the determinant at once.
     const Eigen::LLT<Eigen::MatrixXd> root(correlation);
     const Eigen::MatrixXd one = root.solve(Eigen::MatrixXd::Identity(knots.count, knots.count));
     const Eigen::MatrixXd l = root.matrixL();
@@ -311,6 +330,7 @@ FreeForce free_history(const ForceSpace& space) {
   // there, whatever the plant's stiffness is.
   const double unit = space.size() / std::max(space.normal.trace(), 1.0e-300);  // variance
   FreeForce best;
+  // The answer where no size of a force is likelier than none.
   best.value = best.error = Eigen::VectorXd::Zero(space.size());
   // By tens. The evidence is flat about its top, and only its size is asked for.
   for (double factor = 1.0e-3; factor < 1.0e4; factor *= 10.0) {
@@ -322,11 +342,13 @@ FreeForce free_history(const ForceSpace& space) {
     const Eigen::MatrixXd l = root.matrixL();
     const double evidence = 0.5 * space.right.dot(value) - l.diagonal().array().log().sum() -
                             0.5 * (log_determinant + space.size() * std::log(variance));
+    // No force has the evidence 0, so what comes out below it is none.
     if (evidence <= best.evidence) continue;
     best.evidence = evidence;
     best.value = value;
     // Without the prior: what this history explains, to be compared with laws.
     best.gain = space.right.dot(value) - 0.5 * value.dot(space.normal * value);
+    // With the prior, which is what keeps a history quiet where no sample tells of it.
     const Eigen::MatrixXd covariance =
         root.solve(Eigen::MatrixXd::Identity(space.size(), space.size()));
     best.error = covariance.diagonal().cwiseSqrt();

@@ -57,6 +57,8 @@ class Inference {
     } else if (!places_.empty() && places_.front().free.evidence > options_.least_evidence) {
       try_laws();
       ForceRefits refits(evaluator_, model_, centre_, places_, scales_, options_);
+      // Gains are counted from the model and forces act on the centre: what a force only makes up
+      // for is then no gain.
       refits.run(std::move(terms_));
       result_.terms = refits.laws();
       result_.fit = refits.best();
@@ -64,6 +66,7 @@ class Inference {
       if (!result_.terms.empty()) result_.evidence = result_.terms.front().evidence;
       if (!stopped()) conclude();
     }
+    // Those of refits are counted by the evaluator's own simulator.
     result_.simulations = responses_->simulations();
     return std::move(result_);
   }
@@ -82,6 +85,7 @@ class Inference {
   // Markers spread over the plant.
   std::vector<int> markers() const {
     std::vector<int> all;
+    // Curve by curve from the foot on, so that the few that are chosen lie on all of them.
     for (const MarkerChain& chain : chains_of(experiment_))
       for (std::size_t m = 0; m < chain.markers.size(); ++m)
         // At the foot a force moves nothing, and any size of it would do.
@@ -102,6 +106,7 @@ class Inference {
   // Where no number of the plant can stand for a force, it pulls them far away all the same: the
   // plant as it was believed to be answers more like the real one then.
   void choose_centre() {
+    // Mostly the model itself is where forces act.
     centre_ = model_;
     if (conflicts_with_prior(model_, *options_.fit.settings)) {
       note("The refitted plant contradicts what is known of it: forces act on the nominal one.");
@@ -123,7 +128,10 @@ class Inference {
 
   void look_at_places() {
     double most = 0.0;
+    // At markers, because there the motion is known that laws go by. A refit moves the place
+    // between them.
     for (const int marker : markers()) {
+      // Places that were looked at by then are dropped by the caller.
       if (stopped()) return;
       ForcePlace place;
       place.space = responses_->force_at(marker);
@@ -164,6 +172,7 @@ class Inference {
       sensor_evidence_ = evidence;
       sensor_ = group;
     }
+    // Against the best place of a force, and at least what is told of anything from outside.
     const double force = places_.empty() ? 0.0 : places_.front().free.evidence;
     note(text("A free displacement of markers: evidence %.4g", sensor_evidence_));
     // By a clear margin: displacements are freer than forces, which have to bend the plant.
@@ -178,6 +187,7 @@ class Inference {
     result_.where = sensor_.size() > 1 ? "All markers move alike: the camera's frame or the base"
                                        : "Marker \"" + experiment_.markers[sensor_.front()].name +
                                              "\" moves on its own: the marker, not the plant";
+    // Once more, since histories of all groups were not kept, and nothing is simulated for it.
     const FreeForce free = free_history(responses_->displacement_of(sensor_));
     result_.share = share_of(free.gain);
   }
@@ -195,6 +205,7 @@ class Inference {
       // evidence are tried in any case.
       const bool strong = &place - places_.data() < options_.fit.settings->budget.strong_places;
       if (++tried[place.space.place.curve] > 2 && !strong) continue;
+      // Without any simulation: thousands of laws are tried in each place.
       const std::vector<ForceTerm> terms = regress_force(place.space, place.path, scales_);
       for (const ForceTerm& term : terms)
         note("  " + kind_of(term.force) + " at " + place_text(*term.force.place) +
@@ -228,6 +239,7 @@ class Inference {
     } else if (strongest.free.evidence - (centre_.cost - model_.cost) >= levels_.outside_evidence) {
       result_.found = true;
       result_.kind = "force of no known law";
+      // A marker: without a law nothing moves the place along its curve.
       result_.place = strongest.space.place;
       result_.evidence = strongest.free.evidence - (centre_.cost - model_.cost);
       result_.share = share_of(strongest.free.gain - (centre_.cost - model_.cost));
@@ -235,12 +247,15 @@ class Inference {
       result_.what = "No law of the library follows it";
       describe_course(course_of_history(strongest.space, strongest.path, strongest.free.value), "");
     }
+    // Last, as check() may have taken it back.
     if (result_.found) result_.where = where_text();
   }
 
   // How well the place is known: along its curve, and on which one.
   void find_elsewhere() {
     const Hypothesis& model = result_.fit.hypothesis;
+    // The place is one of the fitted numbers, so its deviation has in it what the law's other
+    // numbers trade with it.
     for (int p = 0; p < model.size(); ++p)
       if (model.free[p].name == "at" && model.effects[model.free[p].effect].name == missing_force &&
           // At the end of a curve the place is at its bound, and no deviation is known.
@@ -250,6 +265,8 @@ class Inference {
     // One place of each other curve: along a curve the deviation says it.
     std::set<std::string> known{result_.place->curve};
     for (const ForceTerm& term : result_.terms)
+      // Odds of 20 to 1 in favour of the best leave the others alive, and a person may see at once
+      // which place it is.
       if (term.evidence > result_.evidence - levels_.clear_odds &&
           known.insert(term.force.place->curve).second)
         result_.elsewhere.push_back(*term.force.place);
@@ -266,6 +283,7 @@ class Inference {
 
   void find_other_kinds() {
     const ForceTerm& best = result_.terms.front();
+    // Each kind once, whatever its places.
     std::set<std::string> known{result_.kind};
     for (const ForceTerm& term : result_.terms) {
       // The kind with a near end has one number more, and contains the other. It does as well where
@@ -294,6 +312,7 @@ class Inference {
 
   // RMS error in noise units over the held-out trials, without and with the force.
   void check() {
+    // Without any the force stands by the fitted trials alone.
     if (options_.check.empty()) return;
     // Nothing is fitted there: a force that is really outside does the same in trials it was not
     // fitted to.
@@ -301,6 +320,8 @@ class Inference {
     kept.trials = options_.check;
     const std::vector<Hypothesis> models{model_.hypothesis, result_.fit.hypothesis};
     const auto predicted = evaluator_.predictions(models, kept);
+    // By the noise of a sample and not whitened: this number is told to people beside others of its
+    // kind.
     double error[2];
     for (int m = 0; m < 2; ++m) {
       double sum = 0.0, count = 0.0;
@@ -315,6 +336,7 @@ class Inference {
     note(text("Held-out trials: %.4g of the noise without it, %.4g with it", error[0], error[1]));
     // Within the noise there is nothing to gain.
     if (error[0] > 1.0) result_.gain = (error[0] - error[1]) / (error[0] - 1.0);
+    // A little worse is chance, and trials in which the force hardly acts show nothing of it.
     if (error[1] <= levels_.held_out_worse * error[0]) return;
     // A wrong force is worse than none: people would act on it.
     result_.found = false;

@@ -35,6 +35,7 @@ double last_place(const PickForce& course, const PickSettings& s) {
 /// Where the level falls most, along what was pulled just before.
 // By levels and not by samples: a jerk of the arm swings far up and down, and its mean stays.
 std::optional<Place> largest_fall(const PickForce& course, const PickSettings& s) {
+  // A whole level has to fit in before it, and a part of one behind.
   const double first = course.time(0) + s.level, last = last_place(course, s);
   std::optional<Place> best;
   for (int i = course.first_at(first); i < course.size() && course.time(i) <= last; ++i) {
@@ -64,6 +65,7 @@ class Line {
   double level_before() const {
     double most = -std::numeric_limits<double>::infinity();
     const double half = 0.5 * s_.level;
+    // Two levels back: farther away the pull may have been another one, which had let go before.
     for (int i = course_.first_at(place_.time - 2.0 * s_.level);
          i < course_.size() && course_.time(i) <= place_.time; ++i)
       most =
@@ -85,7 +87,9 @@ class Line {
   // Only what is around the fall. Elsewhere steeper falls may be, which do not last.
   void take(double width) {
     const double from = place_.time - s_.level, to = place_.time + s_.settle + s_.level;
+    // Around each sample and not behind it, or a fall would come late by half of the width.
     const double half = 0.5 * width;
+    // From a little before: where a fall begins is looked for above its steepest part.
     for (int i = course_.first_at(from - 2.0 * s_.response);
          i < course_.size() && course_.time(i) <= to; ++i) {
       const double t = course_.time(i);
@@ -152,7 +156,10 @@ double onset_of(const Line& line, const Half& half, double lost, double width, d
     top = std::max(top, line.value[i]);
   // The steepest part does not begin at the top. Its tangent is followed back to there.
   const double back = (top - line.value[half.start]) * half.time / lost;
+  // What its half would take without averaging, whose own part is half of the width, in squares. Of
+  // a jump nothing is left, and the ramp that was made of it began half a width early.
   const double own = std::sqrt(std::max(0.0, half.time * half.time - 0.25 * width * width));
+  // Not farther back than was looked. A flat tangent would lead anywhere.
   return start - std::min(back, reach + width) + std::max(0.0, 0.5 * width - own);
 }
 
@@ -165,6 +172,7 @@ double samples_to_average(const PickForce& course, double lost, const PickSettin
 
 /// N along the load, in the level before the last place.
 double level_at_end(const PickForce& course, const LargestLoad& load, const PickSettings& s) {
+  // Not in the very last samples, where recorders are stopped and arms let go.
   const double to = last_place(course, s);
   return course.mean(to - s.level, to).dot(load.pull);
 }
@@ -194,6 +202,8 @@ std::optional<Fall> find_fall(const PickForce& course, const PickSettings& s) {
   Fall fall;
   fall.time = fall.onset = place->time;
   fall.pull = place->pull;
+  // The search had to find the place only. Now levels are taken where they are clear of the fall
+  // itself.
   fall.before = line.level_before();
   fall.after = line.level_after();
   fall.share = fall.before > 0.0 ? (fall.before - fall.after) / fall.before : 0.0;
@@ -201,9 +211,11 @@ std::optional<Fall> find_fall(const PickForce& course, const PickSettings& s) {
   // The levels taken with more care are not those of the search: they may show no fall.
   if (lost <= 0.0) return fall;
   const double averaged = samples_to_average(course, lost, s);
+  // Only where noise asks for it. Averaging makes any break slower, and the limit grows with it.
   if (averaged > 1.0) fall.smoothing = averaged * course.interval();
   line.take(fall.smoothing);
   const std::optional<Half> half = shortest(line, lost);
+  // Slower than all that was looked at. It still is a fall, with levels and without a time.
   if (!half) return fall;
   // Noise of a level divided by its slope is noise of a time.
   const double by_noise = course.noise() / std::sqrt(averaged) * half->time / lost;
@@ -242,6 +254,7 @@ Fall whole_fall(const PickForce& course, const LargestLoad& load, const PickSett
 
 Beginning beginning_of(const PickForce& course, const Fall& fall, const PickSettings& s) {
   const double lost = fall.before - fall.after, half_width = 0.5 * s.response;
+  // A fall with a half ends near its place. Without one it may go on to the end of the record.
   const double end =
       fall.half ? fall.time + s.settle + 2.0 * s.level : course.time(course.size() - 1);
   // From behind: where the load was last above what is left then.
@@ -263,6 +276,7 @@ Beginning beginning_of(const PickForce& course, const Fall& fall, const PickSett
 
 bool ends_in_a_fall(const PickForce& course, const LargestLoad& load, const PickSettings& s) {
   const double end = course.time(course.size() - 1);
+  // Over one response: less would be noise, more would hide that it has just gone.
   const double last = course.mean(end - s.response, end + course.interval()).dot(load.pull);
   const double before = level_at_end(course, load, s), left = (1.0 - s.share) * load.force;
   // The fall must begin within the record and be large: at the end of one, arms often just stop.

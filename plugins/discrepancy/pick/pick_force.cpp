@@ -18,6 +18,7 @@ double middle_of_three(double a, double b, double c) {
 /// Standard deviation of one sample: half the mean square of the steps between neighbours, which
 /// slow changes do not enter. At least what the sensor's own steps round off.
 double noise_of(const Eigen::MatrixXd& force, int count) {
+  // A difference of two samples has twice the square of one.
   double squares = 0.0, least = std::numeric_limits<double>::infinity();
   int steps = 0;
   for (Eigen::Index axis = 0; axis < force.cols(); ++axis)
@@ -28,6 +29,7 @@ double noise_of(const Eigen::MatrixXd& force, int count) {
       // At rest only, since a pull has steps of its own.
       if (i < count) squares += step * step, ++steps;
     }
+  // A value anywhere within a step of the sensor has a variance of a twelfth of its square.
   const double rounding = std::isfinite(least) ? least / std::sqrt(12.0) : 0.0;
   return std::max(rounding, steps > 0 ? std::sqrt(0.5 * squares / steps) : 0.0);
 }
@@ -45,7 +47,8 @@ double middle_of(std::vector<double> values) {
 PickForce::PickForce(const PickRecord& record, double rest) {
   take_rows(record);
   if (time_.empty()) return;
-  // Each record has its own zero: the weight of a hand, and what a sensor drifts by.
+  // Each record has its own zero: the weight of a hand, and what a sensor drifts by. At least one
+  // sample: a record without any rest begins at its zero, or nothing could be said at all.
   const int resting = std::max(1, first_at(time_.front() + rest));
   for (Eigen::Index axis = 0; axis < force_.cols(); ++axis) {
     const auto start = force_.col(axis).head(resting);
@@ -90,10 +93,12 @@ void PickForce::thin() {
     int end = i + 1;
     // Breaks take milliseconds. What a record has beyond that is noise and time.
     while (end < size() && time(end) - time(i) < finest) ++end;
+    // About the first of them, so that times on a clock since 1970 lose no digits in the sum.
     double sum = 0.0;
     for (int j = i; j < end; ++j) sum += time(j) - time(i);
     // The mean time of a mean force, or edges would come late by half of it.
     const double middle = time(i) + sum / (end - i);
+    // Averaged and not picked: dropping samples would throw away what they know of the noise.
     const Eigen::RowVectorXd mean = force_.middleRows(i, end - i).colwise().mean();
     time_[static_cast<std::size_t>(kept)] = middle;
     force_.row(kept++) = mean;
@@ -111,6 +116,7 @@ int PickForce::first_at(double time) const {
 
 Eigen::VectorXd PickForce::mean(double from, double to) const {
   const int first = first_at(from), end = first_at(to);
+  // Sums from the start lose digits over long records, but forces have few.
   if (end > first) return (sums_.row(end) - sums_.row(first)).transpose() / (end - first);
   // A stretch between two samples: the next one stands for it.
   return force(std::clamp(first, 0, size() - 1));
@@ -118,6 +124,7 @@ Eigen::VectorXd PickForce::mean(double from, double to) const {
 
 bool PickForce::covers(double from, double to) const {
   const int first = first_at(from), end = first_at(to);
+  // By time and not by count, because rates differ and rows are missing in places.
   const double seen = end > first ? time(end - 1) - time(first) + interval_ : 0.0;
   // Half of it seen is a level: slow records have few samples in one.
   return seen >= 0.5 * (to - from);

@@ -19,6 +19,7 @@ using io::Quantity;
 // Names as recorders of ROS and others give them. A letter before "force" makes another word:
 // "reinforce_x" is none.
 bool is_force_axis(const std::string& heading, char axis) {
+  // Without the unit, which may itself end in a letter of an axis.
   std::string name = io::split_unit(heading).name;
   if (const auto mark = name.rfind('_'); mark != std::string::npos)
     if (const auto unit = io::unit_of(name.substr(mark + 1));
@@ -27,7 +28,9 @@ bool is_force_axis(const std::string& heading, char axis) {
       name.resize(mark);
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::string end(1, axis);
+  // Short names must be the whole heading: "of_x" ends in one of them.
   if (name == "f" + end || name == "f_" + end) return true;
+  // By the end of the name, since what stands before it is a topic or a sensor.
   for (const char* mark : {"_", ".", "/", " ", ""}) {
     const std::string wanted = std::string("force") + mark + end;
     if (!name.ends_with(wanted)) continue;
@@ -46,30 +49,37 @@ class PickReader {
         said_(said),
         diagnostics_(diagnostics),
         notes_(notes),
+        // Of other files: their faults are not this one's.
         before_(diagnostics.error_count()),
         table_(read_machine_table(file, diagnostics)) {}
 
   PickRecord read() {
     PickRecord record;
+    // Before anything can fail: answers about a file name it.
     record.file = file_;
     // A table that cannot be read would only lead to sentences about its columns.
     if (diagnostics_.error_count() > before_) return record;
+    // Told here: a reader of numbers would only say that there are none.
     if (table_.lines.empty()) {
       diagnostics_.error(table_.head, "no row below the names, expected the rows of a record");
       return record;
     }
     read_time(record);
+    // After the time, so that a table without either is told of both.
     const std::vector<const MachineColumn*> axes = force_columns();
     record.force.resize(static_cast<Eigen::Index>(table_.lines.size()),
                         static_cast<Eigen::Index>(axes.size()));
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
       const std::vector<double> values =
+          // In newtons by what the table or the person states. A number in grams looks like any
+          // other.
           si_values(table_, *axes[axis], Quantity::force, {said_.force_unit, "--force-unit"},
                     diagnostics_, notes_);
       // The faults are said, and further axes would repeat them.
       if (values.empty()) return record;
       record.force.col(static_cast<Eigen::Index>(axis)) = Eigen::Map<const Eigen::VectorXd>(
           values.data(), static_cast<Eigen::Index>(values.size()));
+      // Told in the answer, since nobody named them.
       record.columns.push_back(axes[axis]->name);
     }
     return record;
@@ -77,9 +87,11 @@ class PickReader {
 
  private:
   void read_time(PickRecord& record) {
+    // By words that recorders use. A column of numbers that merely rise is not taken for a clock.
     const MachineColumn* time =
         said_.time ? named(*said_.time)
                    : table_.find({"time", "t", "timestamp", "elapsed time", "time stamp"});
+    // A column that was named and is not there has been told by named().
     if (time == nullptr) {
       if (!said_.time)
         diagnostics_.error(table_.head,
@@ -90,12 +102,14 @@ class PickReader {
     }
     record.time = si_values(table_, *time, Quantity::time, {said_.time_unit, "--time-unit"},
                             diagnostics_, notes_);
-    // A clock that jumps back makes falls of no time.
+    // A clock that jumps back makes falls of no time. Empty where a unit is missing, which has been
+    // told.
     if (!record.time.empty()) check_increasing(table_, *time, diagnostics_);
   }
 
   const MachineColumn* named(const std::string& name) {
     const MachineColumn* column = table_.named(name);
+    // With all names, since most such words are misspelt ones.
     if (column == nullptr)
       diagnostics_.error(table_.head,
                          "no column " + in_quotes(name) + ", expected one of: " + table_.names());
@@ -105,9 +119,13 @@ class PickReader {
   std::vector<const MachineColumn*> force_columns() {
     std::vector<const MachineColumn*> found;
     for (const std::string& name : said_.force)
+      // In the order in which they were given. A name that is wrong has been told, and the others
+      // are read on.
       if (const MachineColumn* column = named(name)) found.push_back(column);
     // What was asked for is not guessed at.
     if (!said_.force.empty()) return found;
+    // In this order, whatever the table's is. One or two of them will do: sensors of one axis are
+    // common.
     for (const char axis : {'x', 'y', 'z'}) {
       std::vector<const MachineColumn*> along;
       for (const MachineColumn& column : table_.columns)
@@ -121,6 +139,8 @@ class PickReader {
   }
 
   std::vector<const MachineColumn*> several() {
+    // As something that nobody stated, and not as a fault: the table is right, and an option says
+    // the rest.
     notes_.missing.push_back(file_ +
                              ": more than one sensor's force, expected --force-column once an "
                              "axis, with some of: " +
@@ -133,11 +153,13 @@ class PickReader {
     std::vector<const MachineColumn*> found;
     for (const MachineColumn& column : table_.columns) {
       const auto unit = io::unit_of(column.unit);
+      // By its name only where it has no unit.
       const bool known = io::match_column(column.name, "force").matches ||
                          io::match_column(column.name, "load").matches;
       // A unit says more than a name: "load (mm)" is no force.
       if (unit ? unit->quantity == Quantity::force : known) found.push_back(&column);
     }
+    // Of several forces none is taken: the wrong one would be judged without a word.
     if (found.size() == 1) return found;
     notes_.missing.push_back(
         file_ + (found.empty() ? ": no column" : ": more than one column") +

@@ -8,6 +8,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Two levels and the time to settle between them fit in.
 constexpr double around = 0.4;  // s shown before and after the fall
 
 /// The force's size and its part along the pull, in a stretch of the record.
@@ -18,16 +19,20 @@ plots::LinePlot plot_of(const PickForce& course, const Pick& pick, const std::st
   plot.x.label = "time (s)";
   plot.y.label = "force (N)";
   plots::PlotSeries size{"size", {}, {}}, along{"along the pull", {}, {}};
+  // Single samples show only near by. There they tell how few of them a break has.
   along.markers = stretch.has_value();
   for (int i = 0; i < course.size(); ++i) {
     if (stretch && (course.time(i) < stretch->first || course.time(i) > stretch->second)) continue;
     size.x.push_back(course.time(i));
+    // Beside the part along the pull, the size shows where a hand turned: there it stays and the
+    // part falls.
     size.y.push_back(course.force(i).norm());
     along.x.push_back(course.time(i));
     if (pick.fall) along.y.push_back(course.force(i).dot(pick.fall->pull));
   }
   plot.series.push_back(size);
   if (pick.fall) plot.series.push_back(along);
+  // Marked in the plot, so that a person can see whether it is where the load goes.
   if (const auto time = pick.time())
     plot.events.push_back({*time, pick.end == Pick::End::came_off ? "came off" : "slips"});
   return plot;
@@ -38,6 +43,8 @@ plots::LinePlot plot_of(const PickForce& course, const Pick& pick, const std::st
 void write_pick_report(const std::filesystem::path& file, const std::vector<JudgedPick>& all,
                        const PickSettings& settings) {
   io::HtmlReport report("Picks", text("%.0f records", static_cast<double>(all.size())));
+  // A table of all records first: in a season's picks one looks for the odd ones, and only then at
+  // their plots.
   std::vector<std::vector<std::string>> rows;
   for (const JudgedPick& judged : all) {
     const Pick& pick = judged.pick;
@@ -52,8 +59,12 @@ void write_pick_report(const std::filesystem::path& file, const std::vector<Judg
   for (const JudgedPick& judged : all) {
     const Pick& pick = judged.pick;
     report.heading(judged.record.file);
+    // Marked as good where the fruit came off, which is what a picker is for.
     report.note(pick.sentence(), pick.end == Pick::End::came_off);
+    // Made again as it was judged, without zero and spikes: a plot of the raw record would not show
+    // what the answer is about.
     const PickForce course(judged.record, settings.rest);
+    // What is unclear for want of samples has its sentence, and nothing that could be drawn.
     if (course.size() < 2) continue;
     std::vector<std::string> plots = {plots::to_svg(plot_of(course, pick, "the record", {}))};
     if (pick.fall)

@@ -24,6 +24,8 @@ std::vector<ForcePlace> places_of(const SceneExperiment& experiment,
     places.clear();
     for (std::size_t p = 0; p < experiment.plants.size(); ++p)
       for (const plant::PlantCurve& curve : experiment.plants[p].file.curves) {
+        // Between the drawn points. The curve itself is a little longer, which moves places by
+        // little.
         double length = 0.0;
         for (std::size_t i = 1; i < curve.points.size(); ++i)
           length += (curve.points[i] - curve.points[i - 1]).norm();
@@ -43,6 +45,7 @@ std::vector<ForcePlace> places_of(const SceneExperiment& experiment,
 /// One trial of the experiment, in which the places are markers that nobody has seen.
 SceneExperiment with_places(const SceneExperiment& experiment, int trial,
                             const std::vector<ForcePlace>& places) {
+  // A copy, so that the evaluator's experiment keeps its own markers and columns.
   SceneExperiment own = experiment;
   // One trial alone: a hand that pulls once does not pull in all of them.
   own.trials = {experiment.trials[static_cast<std::size_t>(trial)]};
@@ -51,6 +54,8 @@ SceneExperiment with_places(const SceneExperiment& experiment, int trial,
     marker.name = "place " + std::to_string(own.markers.size());
     marker.plant = place.plant;
     marker.place = place.at;
+    // As markers, because the simulator tells these at all times, and no other way to follow a
+    // place is needed.
     own.markers.push_back(marker);
   }
   Samples& markers = own.trials.front().markers;
@@ -83,11 +88,13 @@ class ForceSearch {
         first_(3 * static_cast<long>(experiment.markers.size())),
         data_(own_),
         simulator_(own_, numerics, threads) {
+    // On top of what the best model knows: the force has to explain what that leaves.
     base_.effects = model;
     times_of_rows();
   }
 
   OutsideForce run() {
+    // Empty where nothing can be said. Whoever asked then tells of no place.
     OutsideForce best;
     const SceneReadings here = simulate({base_}).front();
     if (!here.healthy) return best;
@@ -100,15 +107,19 @@ class ForceSearch {
     for (std::size_t p = 0; p < places_.size(); ++p) {
       // Each place by itself. Two forces at once would explain anything.
       const Eigen::MatrixXd response = response_of(p, size, residual);
+      // With the course free in every bin. A form of course would be a guess of what pulls, and the
+      // answer is only where.
       found.push_back(course(residual, response));
       left.push_back(1.0 - found.back().share);
     }
     const auto least = std::ranges::min_element(left) - left.begin();
     best = found[static_cast<std::size_t>(least)];
+    // Places of all plants compete: which plant was pulled is a part of the answer.
     best.plant = places_[static_cast<std::size_t>(least)].plant;
     // Places are 45 mm apart by default, and what is left is smooth between them.
     best.place = between(left, static_cast<std::size_t>(least));
-    // Some place is always the best one. What counts is how much it explains.
+    // Some place is always the best one. What counts is how much it explains. By what it explains,
+    // and not by how sure each of its components is: along a stem a force is never sure.
     best.found = best.share >= how_.least_share && best.to > best.from;
     if (best.found) best.position = position(here, best, static_cast<std::size_t>(least));
     return best;
@@ -134,6 +145,8 @@ class ForceSearch {
     force.plant = places_[place].plant;
     force.place = places_[place].at;
     force.force = size * Vec3::Unit(axis);
+    // It then stays. A constant force shows what a place does to everything else, and a slow course
+    // is a sum of such ones.
     force.from = begin_;
     // A force that begins at once rings a stem, and the course would be fitted to the ringing.
     force.rise = how_.rise;
@@ -153,6 +166,7 @@ class ForceSearch {
     for (const SceneReadings& one : simulate(variants)) {
       if (!one.healthy) continue;
       const Eigen::MatrixXd moved = one.markers - here.markers;
+      // All places, since the tip of one curve may move another.
       for (long c = first_; c < moved.cols(); ++c)
         for (long r = 0; r < moved.rows(); ++r)
           if (std::isfinite(moved(r, c))) most = std::max(most, std::abs(moved(r, c)));
@@ -165,6 +179,7 @@ class ForceSearch {
   // sticks against a little slides under more.
   double way_of(const SceneReadings& here) const {
     const Eigen::MatrixXd& measured = own_.trials.front().markers.value;
+    // A little at least, or contacts that stick would hide what a place does.
     double most = how_.least_response;
     for (long c = 0; c < first_; ++c)
       for (long r = 0; r < measured.rows(); ++r) {
@@ -173,6 +188,7 @@ class ForceSearch {
         if (own_.markers[static_cast<std::size_t>(c / 3)].plant >= 0 && std::isfinite(off))
           most = std::max(most, off);
       }
+    // Not farther than where stems are linear, however far they were pulled.
     return std::min(most, how_.most_response);
   }
 
@@ -180,9 +196,12 @@ class ForceSearch {
   // did would meet another contact.
   double onset(const Eigen::VectorXd& residual) const {
     const std::size_t bins = bin_of(own_.trials.front().duration()) + 1;
+    // In bins of time over all channels. One channel may see nothing of a pull that another one
+    // sees.
     std::vector<double> square(bins, 0.0), count(bins, 0.0);
     for (long i = 0; i < residual.size(); ++i) {
       const std::size_t b = bin_of(row_time_[static_cast<std::size_t>(i)]);
+      // An entry that is exactly zero was not measured.
       if (b >= bins || residual[i] == 0.0) continue;
       square[b] += residual[i] * residual[i];
       count[b] += 1.0;
@@ -191,9 +210,11 @@ class ForceSearch {
       return square[b] > how_.significant_bin * count[b];
     };
     for (std::size_t b = 0; b + 2 < bins; ++b)
+      // Three in a row: of hundreds of bins some are twice the noise by chance.
       if (significant(b) && significant(b + 1) && significant(b + 2))
         // A bin earlier: what is significant began to grow before.
         return std::max(0.0, (static_cast<double>(b) - 1.0) * how_.bin);
+    // Nothing stands out, and then a force may act from the start.
     return 0.0;
   }
 
@@ -207,6 +228,8 @@ class ForceSearch {
     responses_.clear();
     std::vector<SceneVariant> variants;
     std::vector<std::size_t> of;
+    // Three directions a place: five places are fifteen variants, two batches of which one lane
+    // stays empty.
     const std::size_t together = 2 * widest / 3;
     for (std::size_t p = place; p < std::min(place + together, places_.size()); ++p) {
       for (int axis = 0; axis < 3; ++axis) variants.push_back(pushed(p, axis, size));
@@ -218,6 +241,7 @@ class ForceSearch {
       for (int axis = 0; axis < 3; ++axis) {
         const SceneReadings& one = readings[3 * i + static_cast<std::size_t>(axis)];
         if (one.healthy)
+          // What a newton there takes off the residual, in noise units.
           columns.col(axis) = (residual - residual_of(one)) / size;
         else
           // A push that the plant does not survive explains nothing.
@@ -229,6 +253,8 @@ class ForceSearch {
   }
 
   void times_of_rows() {
+    // In the order in which the data set lays out its residual: channel by channel, all times of
+    // each.
     const auto add = [&](const Samples& samples) {
       for (long c = 0; c < samples.value.cols(); ++c)
         row_time_.insert(row_time_.end(), samples.time.begin(), samples.time.end());
@@ -257,6 +283,8 @@ class ForceSearch {
       square[b] += residual[i] * residual[i];
       count[b] += 1.0;
     }
+    // A bin is fitted as if the plant followed at once. That holds for what is slow against its
+    // swing, which a hand's pull is.
     OutsideForce out;
     double all = 0.0, taken = 0.0;
     std::vector<double> clear(bins, 0.0);  // what it gains, in units of what is left a sample
@@ -278,12 +306,15 @@ class ForceSearch {
       const double left = count[b] > 3.0 ? std::max(1.0, (square[b] - gain) / count[b]) : 1.0;
       clear[b] = gain / left;
     }
+    // Of what is above the noise in all bins, so that a place that explains a short time well is
+    // not the best.
     out.share = all > 0.0 ? taken / all : 0.0;
     mark_active(out, clear);
     return out;
   }
 
   void mark_active(OutsideForce& out, const std::vector<double>& clear) const {
+    // In units of what is left in the bin itself, so that a bin that no force explains has none.
     const auto seen = [&](std::size_t b) { return clear[b] > how_.clear_force * how_.clear_force; };
     std::vector<double> sizes;
     for (std::size_t b = 0; b < clear.size(); ++b)
@@ -306,6 +337,7 @@ class ForceSearch {
     while (first > 0 && seen(first - 1) && out.force[first - 1].norm() > how_.onset_share * peak)
       --first;
     out.from = static_cast<double>(first) * how_.bin;
+    // The last of three that act in a row ends two bins later, at its own end.
     out.to = static_cast<double>(active.back() + 3) * how_.bin;
     Vec3 mean = Vec3::Zero();
     double square = 0.0;
@@ -313,6 +345,7 @@ class ForceSearch {
       mean += out.force[b];
       square += out.force[b].squaredNorm();
     }
+    // A mean of sizes and not the size of the mean, which of a push to and fro would be nothing.
     out.size = std::sqrt(square / static_cast<double>(active.size()));
     // Of the mean, since a hand that pulls keeps to its direction. Of a push to and fro it says
     // nothing.
@@ -328,6 +361,7 @@ class ForceSearch {
                         places_[best + 1].at.curve == place.curve;
     if (!inside) return place;
     const double a = left[best - 1], b = left[best], c = left[best + 1];
+    // Where the best is no minimum between its neighbours, as on a plateau, it stays where it is.
     const double bend = a - 2.0 * b + c;
     // Half of the way at most: beyond it the neighbour would have been the best one.
     const double shift = bend > 0.0 ? std::clamp(0.5 * (a - c) / bend, -0.5, 0.5) : 0.0;
@@ -372,6 +406,7 @@ class ForceSearch {
     Vec3 off_below = Vec3::Zero(), off_above = Vec3::Zero();
     for (std::size_t m = 0; 3 * static_cast<long>(m) < first_; ++m) {
       const SceneMarker& marker = own_.markers[m];
+      // Markers of other curves are off by what those do.
       if (marker.plant != force.plant || marker.place.curve != force.place.curve) continue;
       const long c = 3 * static_cast<long>(m);
       const Vec3 off = (own_.trials.front().markers.value.row(row) - here.markers.row(row))
@@ -415,13 +450,18 @@ OutsideForce find_outside_force(SceneEvaluator& evaluator, const std::vector<pla
                                 std::span<const int> trials, int threads) {
   const SceneExperiment& experiment = evaluator.simulator().experiment();
   SceneVariant variant{model};
+  // One trial is searched, the one in which it shows most: a search of all would take as long for
+  // each.
   double most = 0.0;
   int worst = -1;
   for (const int t : trials) {
     const SceneSimulator::Request request{&variant, t};
     const SceneReadings readings = evaluator.simulator().run({&request, 1}).front();
     SceneDataSet::Sum sum;
+    // All kinds of channels together, in noise units.
     for (const SceneDataSet::Sum& one : evaluator.data().sums(t, readings)) sum += one;
+    // By the sum and not by the mean: a long trial with a short pull has a small mean, and the pull
+    // is what is looked for.
     if (sum.square > most) {
       most = sum.square;
       worst = t;

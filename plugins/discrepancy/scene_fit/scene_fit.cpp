@@ -11,6 +11,8 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+// Entries, measured or not, so that a residual has one layout for all models. What was not measured
+// is zero in all of them.
 long rows_of(const SceneDataSet& data, std::span<const int> trials) {
   long rows = 0;
   for (const int t : trials) rows += data.size(t);
@@ -25,6 +27,7 @@ class SceneCost : public ceres::CostFunction {
         model_(start),
         trials_(trials),
         rows_(rows_of(evaluator.data(), trials)),
+        // A first guess. It is put right by what the first difference shows.
         step_(Eigen::VectorXd::Constant(start.size(), evaluator.settings().fit.first_step)) {
     // A row a number for what is known beforehand; it stays zero where nothing is.
     set_num_residuals(static_cast<int>(rows_) + start.size());
@@ -43,12 +46,17 @@ class SceneCost : public ceres::CostFunction {
       has_jacobian_ = false;
     }
     Eigen::Map<Eigen::VectorXd> out(residuals, rows_ + n);
+    // What is known beforehand stands below, as a measurement of the number itself. By its own
+    // deviation, whatever the model leaves.
     out.head(rows_) = residual_;
     for (int p = 0; p < n; ++p) out[rows_ + p] = prior(p, u[p]);
     if (!jacobians || !jacobians[0]) return true;
+    // Only where they are asked for: derivatives are n simulations of a scene, and a step that is
+    // refused needs none.
     if (!has_jacobian_) differentiate(u);
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
         jacobians[0], rows_ + n, n);
+    // The residual is measured less predicted, and the differences are of the prediction.
     j.topRows(rows_) = -jacobian_;
     j.bottomRows(n).setZero();
     for (int p = 0; p < n; ++p)
@@ -63,6 +71,7 @@ class SceneCost : public ceres::CostFunction {
  private:
   double prior(int p, double u) const {
     const effects::FreeParameter& free = model_.free[p];
+    // A deviation of 0 stands for nothing known, and not for all.
     return free.prior > 0.0 ? (u - free.to_unknown(free.prior_centre)) / free.prior : 0.0;
   }
 
@@ -93,6 +102,7 @@ class SceneCost : public ceres::CostFunction {
       moved[p] += used[p];
       models.push_back(at(moved));
     }
+    // Side by side, so that they share the solver's lanes and all threads.
     evaluations_ += n;
     const SceneFitSettings& how = evaluator_.settings().fit;
     const Eigen::MatrixXd there = evaluator_.residuals(models, trials_);
@@ -100,7 +110,9 @@ class SceneCost : public ceres::CostFunction {
     for (int p = 0; p < n; ++p) {
       const Eigen::VectorXd change = residual_ - there.col(p);
       jacobian_.col(p) = change / used[p];
-      // A number that shows nothing would get a step without end.
+      // A number that shows nothing would get a step without end. The change by this step tells the
+      // next one, which is therefore never simulated for its own sake. Ten times at most: beyond a
+      // contact that begins nothing can be told from before it.
       const double size = std::max(change.norm(), 1.0e-3);
       step_[p] = std::clamp(step_[p] * std::clamp(how.wanted_change / size, 0.1, 10.0),
                             how.least_step, how.most_step);
@@ -123,9 +135,12 @@ Eigen::MatrixXd covariance_of(const SceneFitResult& result) {
   const long n = result.jacobian.cols();
   Eigen::MatrixXd normal = result.jacobian.transpose() * result.jacobian;
   for (long p = 0; p < n; ++p) {
+    // A prior narrows an error as it held the fit.
     const double prior = result.model.free[static_cast<std::size_t>(p)].prior;
     if (prior > 0.0) normal(p, p) += 1.0 / (prior * prior);
   }
+  // A number that nothing shows has a pivot of zero here, and comes out with a variance of zero.
+  // Whoever reads it must not take that for certainty.
   return normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
 }
 
@@ -137,6 +152,7 @@ void set_errors(SceneFitResult& result) {
   // What a model leaves counts as noise of its numbers. Less than noise is chance.
   const double spread = std::max(1.0, result.sum.rms());
   for (long p = 0; p < n; ++p)
+    // So such a number keeps the error without end that it began with.
     if (inverse(p, p) > 0.0) result.standard_error[p] = spread * std::sqrt(inverse(p, p));
 }
 
@@ -147,6 +163,8 @@ SceneFitResult result_at(SceneEvaluator& evaluator, const Hypothesis& model, con
       cost.num_residuals(), u.size());
   const double* parameters = u.data();
   double* rows = jacobian.data();
+  // By the cost itself, which has the last point already. Derivatives are made where the fit had
+  // not asked for them there.
   cost.Evaluate(&parameters, residuals.data(), u.size() > 0 ? &rows : nullptr);
   SceneFitResult result;
   result.model = model;
@@ -164,6 +182,7 @@ SceneFitResult result_at(SceneEvaluator& evaluator, const Hypothesis& model, con
 Eigen::MatrixXd SceneEvaluator::residuals(std::span<const Hypothesis> models,
                                           std::span<const int> trials) {
   std::vector<SceneVariant> variants;
+  // All models and trials in one call, so that they fill the solver's lanes and all threads.
   for (const Hypothesis& model : models) variants.push_back({model.effects});
   std::vector<SceneSimulator::Request> requests;
   for (const SceneVariant& variant : variants)
@@ -186,21 +205,30 @@ Eigen::MatrixXd SceneEvaluator::residuals(std::span<const Hypothesis> models,
 
 SceneDataSet::Sum SceneEvaluator::sum(const Eigen::VectorXd& residual,
                                       std::span<const int> trials) const {
+  // Over what was measured: the zeros of the rest would make any model look better.
   SceneDataSet::Sum sum{residual.squaredNorm(), 0};
+  // The count is the same for all models, so that sums of two compare.
   for (const int t : trials) sum.count += data_.samples(t, std::numeric_limits<double>::infinity());
   return sum;
 }
 
 SceneFitResult look_at(SceneEvaluator& evaluator, const Hypothesis& model,
                        std::span<const int> trials) {
+  // With derivatives, though nothing is fitted: a screen lays causes on top of the base's own
+  // numbers.
   const SceneCost cost(evaluator, model, trials);
   return result_at(evaluator, model, cost, model.unknowns(), trials);
 }
 
 void widen_errors(SceneFitResult& fit, const Eigen::MatrixXd& off) {
+  // Without numbers, or with nothing that is off, errors are what they were.
   if (fit.jacobian.cols() == 0 || off.cols() == 0) return;
+  // A prediction that is off by d moves the minimum by (J^T J + P)^-1 J^T d, to first order.
+  // Samples that are off together do not average out, as noise does: white noise alone gave a
+  // tool's offset an error a tenth of what it was off by.
   const Eigen::MatrixXd moved = covariance_of(fit) * (fit.jacobian.transpose() * off);
   for (long p = 0; p < moved.rows(); ++p)
+    // Reasons have nothing to do with each other, so their squares add up.
     fit.standard_error[p] = std::hypot(fit.standard_error[p], moved.row(p).norm());
 }
 
@@ -211,7 +239,10 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
   bool converged = true;
   if (start.size() > 0) {
     ceres::Solver::Options settings;
+    // By orthogonal columns: modulus, density and a place do nearly the same to a push, and normal
+    // equations would square that.
     settings.linear_solver_type = ceres::DENSE_QR;
+    // A few. Whoever searches looks at what is left, and goes on with what came near.
     settings.max_num_iterations = options.iterations;
     // In unit steps of the numbers, of which a thousand are no limit.
     settings.initial_trust_region_radius = 1.0e3;
@@ -220,13 +251,16 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
     // What ends a fit is what a step gains. These two only catch what stands still.
     settings.parameter_tolerance = 1.0e-6;
     settings.gradient_tolerance = 1.0e-12;
-    // Relative to the cost, half the sum of squares.
+    // Relative to the cost, half the sum of squares. By entries and not by samples: those that were
+    // not measured only make it stricter.
     settings.function_tolerance =
         2.0 * evaluator.settings().fit.least_gain /
         std::max(1.0, static_cast<double>(rows_of(evaluator.data(), options.trials)));
+    // As fits of plants do: beside a bound Ceres alone stays in a curved valley.
     const BoundedSolution solution = solve_bounded(cost, start.low(), start.high(), settings, u);
     converged = solution.converged;
   }
+  // With the differences that the fit has learnt, since it is the same cost.
   SceneFitResult result = result_at(evaluator, start, cost, u, options.trials);
   result.converged = converged;
   return result;
@@ -235,13 +269,17 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
 Hypothesis scene_baseline(const SceneExperiment& experiment, const SceneSettings& settings) {
   const SceneFitSettings& known = settings.fit;
   Hypothesis baseline;
-  // The wide prior of density: what swings freely shows modulus over density alone.
+  // No prior here: a stem's modulus is known to a factor, and pushes show it well.
   baseline.add(effects::Start("youngs_modulus").positive("factor", 1.0, 0.1, 10.0));
+  // Density has one: what swings freely shows modulus over density alone. That of damping is wide,
+  // for trials in which nothing swings.
   baseline.add(
       effects::Start("density").positive("factor", 1.0, 0.1, 10.0).prior(known.density_prior, 1.0));
   baseline.add(effects::Start("damping_time")
                    .positive("factor", 1.0, 0.02, 50.0)
                    .prior(known.damping_prior, 1.0));
+  // What it has besides, such as the place of a plant that nothing shows but the arm that touches
+  // it.
   for (const SceneFit& own : baseline_effects({experiment, settings})) {
     Hypothesis added;
     added.effects = {own.effect};

@@ -9,6 +9,7 @@ constexpr int draws = 7;  // with the model itself they fill the solver's eight 
 std::vector<SceneReadings> predictions_of(SceneSimulator& simulator, const SceneVariant& model) {
   std::vector<SceneSimulator::Request> requests;
   for (int t = 0; t < static_cast<int>(simulator.experiment().trials.size()); ++t)
+    // Of the held-out trials, too: they are judged under the same noise.
     requests.push_back({&model, t});
   return simulator.run(requests);
 }
@@ -16,21 +17,27 @@ std::vector<SceneReadings> predictions_of(SceneSimulator& simulator, const Scene
 void widen_noise(SceneSimulator& simulator, SceneDataSet& data, const SceneVariant& model,
                  std::span<const SceneReadings> finer) {
   const int trials = static_cast<int>(simulator.experiment().trials.size());
+  // The first one, of draw 0, is the model as it is told everywhere.
   std::vector<SceneVariant> variants(draws + 1, model);
   for (int d = 0; d <= draws; ++d) variants[static_cast<std::size_t>(d)].draw = d;
   std::vector<SceneSimulator::Request> requests;
   for (int t = 0; t < trials; ++t)
+    // A contact that sticks feels a micrometre, and noise of the encoders, smoothed, leaves one or
+    // two. What that does to a force no model can foretell.
     for (const SceneVariant& variant : variants) requests.push_back({&variant, t});
+  // All trials at once, each with its eight ways of the arm.
   const std::vector<SceneReadings> readings = simulator.run(requests);
   for (int t = 0; t < trials; ++t) {
     const auto first = static_cast<std::size_t>(t) * variants.size();
     std::vector<SceneReadings> others(readings.begin() + static_cast<long>(first) + 1,
                                       readings.begin() + static_cast<long>(first + draws) + 1);
-    // The mesh counts as much as all draws together.
+    // The mesh counts as much as all draws together, and so does the model itself, from which there
+    // is no difference: a third of each square is what counts.
     if (!finer.empty()) {
       for (int d = 0; d < draws; ++d) others.push_back(finer[static_cast<std::size_t>(t)]);
       for (int d = 0; d < draws; ++d) others.push_back(readings[first]);
     }
+    // A model that cannot be simulated says nothing of how sure it is. The noise stays what it was.
     if (readings[first].healthy) data.widen(t, readings[first], others);
   }
 }

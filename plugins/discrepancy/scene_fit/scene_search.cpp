@@ -13,6 +13,8 @@ namespace {
 
 // The Bayesian information criterion, halved: each number costs 1/2 ln n nats.
 double cost_of(const SceneFitResult& fit) {
+  // The verdict tells this as evidence. The search itself weighs by score(), because two solvers
+  // differ by more than nats count.
   return 0.5 * fit.sum.square +
          0.5 * fit.model.size() * std::log(std::max(2.0, static_cast<double>(fit.sum.count)));
 }
@@ -28,9 +30,11 @@ std::vector<std::string> moved(const SceneFitResult& fit, const SceneSearchSetti
   for (int p = 0; p < fit.model.size(); ++p) {
     const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
     const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
+    // Once each, however many of its components went.
     if (!told_of_baseline(effect, free) || std::ranges::find(names, effect.name) != names.end())
       continue;
     const double error = std::hypot(fit.standard_error[p] * free.scale, how.least_displacement);
+    // Its files' value is zero, so the number itself is how far it went.
     if (std::abs(fit.model.value(p)) > how.named_deviations * error) names.push_back(effect.name);
   }
   return names;
@@ -38,6 +42,8 @@ std::vector<std::string> moved(const SceneFitResult& fit, const SceneSearchSetti
 
 // Damping is what solvers differ by most, and density is seen through little but weight.
 double allowance(const std::string& name, const SceneSearchSettings& how) {
+  // Added to the fit's own error: however sharp the data are, two solvers make this much of one
+  // number.
   return name == "damping_time" ? how.damping_known_to
          : name == "density"    ? how.density_known_to
                                 : how.modulus_known_to;
@@ -71,8 +77,8 @@ class Search {
     found_.nominal_check = held_out(plain);
     tell("fitting modulus, density and damping", 0.05);
     found_.baseline = fit(first_baseline(), how_.baseline_iterations, options_.trials);
-    // With a place among its numbers a baseline has a long way, and everything after is judged
-    // against it.
+    // With a place among its numbers (the three are modulus, density and damping) a baseline has a
+    // long way, and everything after is judged against it.
     if (!found_.baseline.converged && found_.baseline.model.size() > 3)
       found_.baseline = fit(found_.baseline.model, how_.baseline_iterations, options_.trials);
     judge_baseline();
@@ -93,7 +99,10 @@ class Search {
       const effects::FreeParameter& free = starts.front().free[p];
       const plant::Effect& effect = starts.front().effects[static_cast<std::size_t>(free.effect)];
       const SceneEffectDefinition* known = told_of_baseline(effect, free);
+      // The definition says which components have no slope where nothing is touched.
       if (!known || free.component >= known->in_baseline->without_slope) continue;
+      // One component at a time. All pairs would be dozens of simulations, and a fit goes on from
+      // the best.
       for (const double way : {-far, -far / 2.0, -far / 4.0, far / 4.0, far / 2.0, far}) {
         starts.push_back(starts.front());
         starts.back().set_value(static_cast<int>(p), way);
@@ -117,6 +126,7 @@ class Search {
 
   // Misfits can be compared only under one noise.
   void renew_noise(const std::vector<plant::Effect>& effects) {
+    // What was told of the files' own model counts under the new noise, too: shares are of it.
     options_.renew_noise(effects);
     const Hypothesis plain;
     found_.nominal_excess = SceneDataSet::beyond_noise(
@@ -129,6 +139,7 @@ class Search {
   void renew_at_baseline() {
     // More than modulus, density and damping: a place is among them.
     if (!options_.renew_noise || found_.baseline.model.size() <= 3) return;
+    // What leaves nothing needs no other noise.
     if (found_.baseline_excess <= how_.floor) return;
     for (int again = 0; again < how_.renewals && !stopped(); ++again) {
       const double before = found_.baseline_excess;
@@ -136,6 +147,7 @@ class Search {
       found_.baseline = fit(found_.baseline.model, how_.baseline_iterations, options_.trials);
       judge_baseline();
       if (found_.baseline_excess <= how_.floor ||
+          // Where it hardly helped any more, the noise is that of the right touches by now.
           found_.baseline_excess > how_.renewed_share * before)
         return;
     }
@@ -149,6 +161,8 @@ class Search {
     // One that leaves most of the misfit is not the cause, and its touches are no better than the
     // files'.
     if (is_enough(best) || best.excess > how_.halfway * found_.baseline_excess) return;
+    // What was far behind under the old noise is only told under the new one. Fitting it on would
+    // cost as much as the best.
     const double near = how_.behind * std::max(best.excess, allowed());
     tell("taking the noise of predictions anew", 0.55);
     const std::vector<plant::Effect> effects = best.fit.model.effects;
@@ -156,6 +170,7 @@ class Search {
     // Not fitted again: it only has to be judged under the same noise as the others.
     found_.baseline = look_at(evaluator_, found_.baseline.model, options_.trials);
     judge_baseline();
+    // All, for the same reason as the baseline: two noises cannot be compared.
     for (SceneCandidate& one : found_.candidates) {
       if (stopped()) return;
       one.fit = one.excess <= near ? fit(one.fit.model, how_.last_iterations, options_.trials)
@@ -171,6 +186,7 @@ class Search {
     renew_at_best();
     for (int more = 1; more < how_.causes && !stopped(); ++more) {
       if (found_.candidates.empty()) return;
+      // A copy: the next round sorts the list that it stands in.
       const SceneCandidate best = found_.candidates.front();
       // The second round has not found a better one, so a third would look at the same models.
       if (static_cast<int>(best.names.size()) < more || is_enough(best)) return;
@@ -181,6 +197,8 @@ class Search {
 
   // What a model may leave: two honest solvers differ by so much.
   double allowed() const {
+    // A share of the misfit as well, since solvers differ by more where more moves. Of the larger
+    // one of the two, so that a baseline that took over much of a cause leaves it no less room.
     return std::max(how_.floor,
                     how_.solvers_share * std::max(found_.nominal_excess, found_.baseline_excess));
   }
@@ -201,6 +219,8 @@ class Search {
     std::vector<SeenFrom>* seen = found_.seen.empty() ? &found_.seen : nullptr;
     std::vector<ScreenedCause> screened =
         screen_causes(evaluator_, base, names, options_.trials, seen);
+    // The linear cost is mostly too good. A cause that would not even gain enough by it is not
+    // worth a fit.
     std::erase_if(screened, [&](const ScreenedCause& one) {
       return square(base_excess) - square(excess_of(one.linear_cost, base.sum)) < how_.least_gain;
     });
@@ -219,6 +239,7 @@ class Search {
       SceneCandidate candidate;
       candidate.names = names;
       candidate.names.push_back(one.name);
+      // From where the linear put all numbers, the base's among them.
       candidate.fit = fit(one.model, how_.first_iterations, options_.trials);
       judge(candidate);
       // Where it leaves too much it may not have arrived, unless it leaves most of it.
@@ -228,6 +249,7 @@ class Search {
         judge(candidate);
       }
       best = std::min(best, candidate.excess);
+      // Kept also where it does badly, for what is told of causes that came near.
       found_.candidates.push_back(std::move(candidate));
       ++done;
     }
@@ -253,6 +275,9 @@ class Search {
 
   // Fewer numbers win where more hardly do better.
   double score(const SceneCandidate& one) const {
+    // By a share of what is left and of the noise, and not by nats. Two solvers differ by more than
+    // any count of samples makes of one number, and six numbers of a camera's pose imitate one of
+    // its focal length.
     return square(one.excess) +
            how_.number_price * one.fit.model.size() * (1.0 + square(one.excess));
   }
@@ -263,6 +288,7 @@ class Search {
     std::map<std::string, int> seen;
     std::vector<ScreenedCause> kept;
     for (const ScreenedCause& one : screened)
+      // They are in order, so the first is the best.
       if (seen[one.name]++ == 0) kept.push_back(one);
     return kept;
   }
@@ -271,6 +297,8 @@ class Search {
   static std::vector<ScreenedCause> in_turns(const std::vector<ScreenedCause>& screened) {
     std::map<std::string, int> seen;
     std::multimap<int, ScreenedCause> turns;
+    // A cause with many joints and starts would else take all the places, and others would never be
+    // simulated.
     for (const ScreenedCause& one : screened) turns.emplace(seen[one.name]++, one);
     std::vector<ScreenedCause> sorted;
     for (auto& [turn, one] : turns) sorted.push_back(std::move(one));
@@ -293,6 +321,7 @@ class Search {
       for (const double share : shares) {
         Hypothesis model = one.model;
         Eigen::VectorXd u = model.unknowns();
+        // The base goes as far along as the cause does, because the step was one of both.
         u.head(old.size()) = old + share * (u.head(old.size()) - old);
         for (long p = old.size(); p < u.size(); ++p)
           // A number on a logarithmic scale has no size that a part could be taken of: it keeps its
@@ -317,6 +346,8 @@ class Search {
       screened[i].linear_cost =
           std::sqrt(std::max(screened[i].linear_cost, 1.0) * std::max(least, 1.0));
     }
+    // In between, since a start that is out of reach of its linear step may still be led back by a
+    // fit.
     std::ranges::stable_sort(screened, {}, &ScreenedCause::linear_cost);
     return screened;
   }
@@ -339,6 +370,7 @@ class Search {
   }
 
   std::optional<double> held_out(const Hypothesis& model) {
+    // Not zero: nothing held out is no proof.
     if (options_.check.empty()) return std::nullopt;
     const Eigen::MatrixXd residual = evaluator_.residuals({&model, 1}, options_.check);
     return SceneDataSet::beyond_noise(evaluator_.sum(residual.col(0), options_.check));
@@ -349,16 +381,21 @@ class Search {
     // What hides is told for the misfit that a cause must make to be looked for.
     found_.seen_units = allowed();
     const bool best_does = !found_.candidates.empty() && is_enough(found_.candidates.front());
+    // A cause has to be needed, too: where the baseline leaves hardly more, any cause does as well.
     if (best_does && pays(found_.candidates.front())) {
       found_.outcome = Outcome::named;
       find_competing();
       if (!found_.competing.empty()) found_.outcome = Outcome::ambiguous;
       found_.material = material_of(found_.candidates.front().fit);
+      // Against the floor alone, and not against a share of the misfit: the baseline is what all
+      // shares are taken of.
     } else if (found_.baseline_excess <= how_.floor) {
       found_.outcome = Outcome::adequate;
       found_.material = material_of(found_.baseline);
     } else {
       found_.outcome = Outcome::unknown;
+      // Last, since a force at a place of its own, with a course of its own, explains much that is
+      // something else.
       if (!stopped()) look_outside();
       found_.material = material_of(found_.baseline);
     }
@@ -373,6 +410,8 @@ class Search {
   // the material that is off is a thing, too.
   void find_competing() {
     const SceneCandidate& best = found_.candidates.front();
+    // Things and not numbers: a gain that explains all by itself stood beside a bias together with
+    // another modulus and density.
     const auto things = [this](const SceneCandidate& one) {
       return one.names.size() + material_of(one.fit).size();
     };
@@ -381,12 +420,15 @@ class Search {
       const SceneCandidate& one = found_.candidates[i];
       // Two causes always explain what one does.
       if (one.names.size() > best.names.size() || !is_enough(one)) continue;
+      // A share of what the best leaves, because what is left of both is mostly what solvers differ
+      // by.
       if (score(one) - score(best) < how_.tie_share * square(best.excess) + how_.least_tie)
         near.push_back(i);
     }
     std::size_t fewest = things(best);
     for (const std::size_t i : near) fewest = std::min(fewest, things(found_.candidates[i]));
     std::erase_if(near, [&](std::size_t i) { return things(found_.candidates[i]) > fewest; });
+    // They are in the order of their scores, so this is the best of the plainest.
     const std::size_t first = near.front();
     for (std::size_t i = 1; i < near.size(); ++i) found_.competing.push_back(near[i]);
     std::rotate(found_.candidates.begin(), found_.candidates.begin() + static_cast<long>(first),
@@ -396,6 +438,8 @@ class Search {
   // Numbers beside the causes that left what is known of them.
   std::vector<std::string> material_of(const SceneFitResult& fit) const {
     std::vector<std::string> names;
+    // A number of the plant that goes far in a fit that explains the data is a finding beside the
+    // cause, and not its price.
     for (const char* name : {"youngs_modulus", "density", "damping_time"}) {
       const int p = fit.model.factor_on(name);
       if (p < 0) continue;
@@ -414,6 +458,8 @@ class Search {
   void look_outside() {
     tell("looking for something that the scene does not have", 0.9);
     std::vector<int> all = options_.trials;
+    // Held-out trials as well: no cause is left that they would have to judge, and the force may be
+    // in one of them.
     all.insert(all.end(), options_.check.begin(), options_.check.end());
     refit_what_is_clean(all);
     if (stopped()) return;
@@ -425,6 +471,8 @@ class Search {
   void refit_what_is_clean(const std::vector<int>& all) {
     for (const int t : all) {
       if (stopped()) return;
+      // Each by itself. Together with a trial in which something else acts no trial would be
+      // explained.
       SceneFitResult own = fit(plain_baseline(), how_.first_iterations, {t});
       if (SceneDataSet::beyond_noise(own.sum) > how_.clean_allowance * how_.floor) continue;
       found_.clean.push_back(t);
