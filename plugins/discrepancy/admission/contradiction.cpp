@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <list>
 #include <span>
+#include <utility>
 
 #include "pedicel/discrepancy/admission/contradiction_checks.h"
 
@@ -45,13 +47,20 @@ bool is_met(Needs needs, const Trial& trial) {
 
 std::vector<Contradiction> contradictions(const Experiment& experiment) {
   std::vector<Contradiction> found;
-  // One for all trials and checks: it is built and settled, which no check should do anew.
-  const std::optional<NominalPlant> nominal_plant = NominalPlant::of(experiment);
+  // One for all trials under the same gravity: it is built and settled, which no check should do
+  // anew.
+  std::list<std::pair<Vec3, std::optional<NominalPlant>>> plants;
+  const auto plant_under = [&](const Vec3& gravity) {
+    auto known = std::ranges::find(plants, gravity, [](const auto& one) { return one.first; });
+    if (known == plants.end())
+      known = plants.emplace(plants.end(), gravity, NominalPlant::of(experiment, gravity));
+    return known->second ? &*known->second : nullptr;
+  };
   // Trial by trial: tables are written trial by trial, and one that is right is no excuse for
   // another.
   for (const Trial& trial : experiment.trials) {
     // Checks get the plant where it can be built, and those that do not need it run in any case.
-    const TrialView view{experiment, trial, nominal_plant ? &*nominal_plant : nullptr};
+    const TrialView view{experiment, trial, plant_under(trial.gravity)};
     for (std::size_t kind = 0; kind < checks.size(); ++kind)
       if (!is_met(checks[kind].needs, trial)) {
         continue;

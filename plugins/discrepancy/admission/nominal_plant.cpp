@@ -16,26 +16,24 @@ constexpr double largest_way = 0.01, smallest_way = 1.0e-4;
 
 }  // namespace
 
-std::optional<NominalPlant> NominalPlant::of(const Experiment& experiment) {
+std::optional<NominalPlant> NominalPlant::of(const Experiment& experiment, const Vec3& gravity) {
   try {
-    return NominalPlant(experiment);
+    return NominalPlant(experiment, gravity);
     // The plant's own reader tells its faults. Checks that need no plant go on.
   } catch (const InvalidFile&) {
     return std::nullopt;
   }
 }
 
-NominalPlant::NominalPlant(const Experiment& experiment)
+NominalPlant::NominalPlant(const Experiment& experiment, const Vec3& gravity)
     : file_(experiment.plant),
       // On the file's own mesh, without short segments at junctions: what these change is far less
       // than what is asked here.
       built_(PlantMaker(experiment, experiment.plant.distance, 0.0).nominal()),
       drawn_(cosserat::drawn_state(built_.model)),
-      settled_(drawn_) {
+      settled_(drawn_),
+      gravity_(gravity) {
   const cosserat::RodModel& model = built_.model;
-  // Of the first trial, also where the plant is turned between trials. The drawn places count
-  // beside the settled ones in most checks.
-  gravity_ = experiment.trials.empty() ? Vec3(0, 0, -9.81) : experiment.trials.front().gravity;
   // A plant too soft to stand is compared as drawn: what falls over is found by others.
   if (!find_equilibrium(model, settled_, gravity_, {})) settled_ = drawn_;
   root_ = model.root.position;

@@ -14,7 +14,7 @@ namespace pedicel::discrepancy {
 struct Spot {
   plant::PlacedPoint point;
   Vec3 drawn = Vec3::Zero();    ///< m, W, as drawn
-  Vec3 settled = Vec3::Zero();  ///< m, W, under the first trial's gravity
+  Vec3 settled = Vec3::Zero();  ///< m, W, under gravity
   double from_root = 0.0;       ///< m along the plant
 };
 
@@ -23,7 +23,8 @@ struct Spot {
 class NominalPlant {
  public:
   /// Nothing where the plant cannot be built; that is for others to say.
-  static std::optional<NominalPlant> of(const Experiment& experiment);
+  /// `gravity` (m/s2, W) is a trial's: a plant may be turned between trials.
+  static std::optional<NominalPlant> of(const Experiment& experiment, const Vec3& gravity);
 
   const std::vector<Spot>& markers() const { return markers_; }  ///< in the experiment's order
   Spot spot(const plant::CurvePlace& place) const;
@@ -37,7 +38,7 @@ class NominalPlant {
   double reach() const { return reach_; }     ///< m, to the end that is farthest from the root
 
  private:
-  explicit NominalPlant(const Experiment& experiment);
+  NominalPlant(const Experiment& experiment, const Vec3& gravity);
 
   Mat3 find_compliance(const Spot& spot) const;
 

@@ -84,7 +84,7 @@ class Run {
     for (int round = 0; round < most_rounds && !stopped(); ++round) {
       say("fitting", 0.35);
       polish();
-      if (!profile_all()) break;
+      if (!profile_all(round + 1 == most_rounds)) break;
     }
     measure_trials();
     result_.position_noise = setup_.data().position_noise();
@@ -237,8 +237,9 @@ class Run {
         std::sqrt(std::max(1.0, 2.0 * result_.summary.cost / std::max(1, setup_.samples())));
   }
 
-  // True: a better fit turned up on the way, and the intervals must be done again.
-  bool profile_all() {
+  // True: a better fit turned up on the way, and the intervals must be done again. Never so in the
+  // last round: half a table about another fit would be worse than all of it about this one.
+  bool profile_all(bool is_last) {
     // Intervals about what was not the minimum say nothing.
     result_.parameters.clear();
     std::vector<Profile> profiles;
@@ -252,7 +253,12 @@ class Run {
           0.4 + 0.55 * p / asked_);
       const Profile found = profiles.empty() ? profiled(p) : profiles[p];
       result_.refits += found.low.refits + found.high.refits;
-      if (found.better) {
+      if (found.better && is_last)
+        result_.remarks.push_back("While the interval of " +
+                                  described(result_.summary.hypothesis.free[p]).name +
+                                  " was looked for a better fit turned up again: the data have "
+                                  "several valleys, and intervals may be too narrow.");
+      if (found.better && !is_last) {
         // Its values alone. The fit that follows makes the residual and the derivatives anew, with
         // the freedom of all its numbers.
         result_.summary.hypothesis = found.better->hypothesis;

@@ -534,6 +534,27 @@ const Hidden hidden_effects[] = {
     {"AForceGain", "{name: force_gain, gain: 0.3, offset: [0.1, 0, -0.1]}"},
 };
 
+// A soft stem that was drawn upright leans by 0.1 m to the side that is down. Compared with where
+// the first trial's gravity has it, a path or a marker of the second would be 0.2 m off.
+TEST(HonestTrials, APlantMayBeTurnedBetweenTrials) {
+  Experiment experiment = laboratory::day();
+  experiment.plant.material.youngs_modulus = 5e7;
+  // On the branches alone: a marker beside the path would say how far the plant is aside.
+  experiment.markers.erase(experiment.markers.begin(), experiment.markers.begin() + 5);
+  experiment.trials.clear();
+  laboratory::add_trials(experiment);
+  Trial& turned = experiment.trials[release_y];
+  turned.gravity = {0, 9.81, 0};
+  const Vec3 start = laboratory::held_point(experiment, turned.gravity);
+  ASSERT_GT((start - laboratory::held_point(experiment)).norm(), 0.1);
+  for (Vec3& x : turned.holds[0].path.position) x += start - laboratory::held_point(experiment);
+  laboratory::measure(experiment, {});
+  for (const Contradiction& one : contradictions(experiment)) ADD_FAILURE() << one.sentence();
+  turned.gravity = experiment.trials[release_x].gravity;
+  EXPECT_FALSE(contradictions(experiment).empty())
+      << "the same tables, and a gravity that is wrong";
+}
+
 // The plant is pulled aside within a fifth of a second and let go soon after: markers go far
 // between two samples, and all of them.
 TEST(HonestTrials, AFastReleaseIsNoMistake) {

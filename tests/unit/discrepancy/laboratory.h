@@ -66,8 +66,12 @@ inline void add_samples(Samples& samples, double until, Eigen::Index columns) {
   samples.value.setZero(samples.size(), columns);
 }
 
+inline Vec3 held_point(const Experiment& experiment, const Vec3& gravity = {0, 0, -9.81}) {
+  return NominalPlant::of(experiment, gravity)->spot({"stem", 0.8, {}}).settled;
+}
+
 inline void add_trials(Experiment& experiment) {
-  const Vec3 start = NominalPlant::of(experiment)->spot({"stem", 0.8, {}}).settled;
+  const Vec3 start = held_point(experiment);
   const auto begin = [&](const std::string& name, double until) -> Trial& {
     Trial trial;
     trial.name = name;
