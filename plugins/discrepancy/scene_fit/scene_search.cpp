@@ -204,11 +204,13 @@ class Search {
   }
   bool is_enough(const SceneCandidate& one) const {
     // Both must hold: fitted trials alone would let many numbers win.
-    if (one.excess > allowed()) return false;
-    return !one.check_excess || !found_.nominal_check ||
-           *one.check_excess <=
-               how_.held_out_allowance *
-                   std::max(how_.floor, how_.solvers_share * *found_.nominal_check);
+    return one.excess <= allowed() && holds_elsewhere(one.check_excess);
+  }
+  // Whether trials that a model was not fitted to agree with it.
+  bool holds_elsewhere(const std::optional<double>& excess) const {
+    return !excess || !found_.nominal_check ||
+           *excess <= how_.held_out_allowance *
+                          std::max(how_.floor, how_.solvers_share * *found_.nominal_check);
   }
 
   // Extends a model by each cause that it has not; refits those with the least linear cost.
@@ -388,8 +390,8 @@ class Search {
       if (!found_.competing.empty()) found_.outcome = Outcome::ambiguous;
       found_.material = material_of(found_.candidates.front().fit);
       // Against the floor alone, and not against a share of the misfit: the baseline is what all
-      // shares are taken of.
-    } else if (found_.baseline_excess <= how_.floor) {
+      // shares are taken of. Held-out trials may object, as something may act in one of them alone.
+    } else if (found_.baseline_excess <= how_.floor && holds_elsewhere(found_.baseline_check)) {
       found_.outcome = Outcome::adequate;
       found_.material = material_of(found_.baseline);
     } else {
