@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+
 #include "arm_at_stem.h"
 #include "pedicel/discrepancy/scene/scene_observe.h"
 
@@ -20,15 +22,18 @@ class SceneSearch : public testing::Test {
     how.numerics.distance = 0.05;
     how.numerics.dt = 2.0e-3;
     made_ = observed_scene(plain, variant, how);
+    if (spoil_) spoil_(made_);
     const SceneDataSet data(made_);
     SceneSimulator simulator(made_, how.numerics, 1);
     SceneEvaluator evaluator(simulator, data);
     SceneSearchOptions options;
     options.trials = {0};
+    if (made_.trials.size() > 1) options.check = {1};
     return search_scene(evaluator, options);
   }
   ArmAtStem at_;
   SceneExperiment made_;
+  std::function<void(SceneExperiment&)> spoil_;  // what was measured
 };
 
 double value_of(const SceneFitResult& fit, const std::string& effect, const std::string& number) {
@@ -44,6 +49,14 @@ TEST_F(SceneSearch, NothingIsFoundWhereNothingIsHidden) {
   EXPECT_EQ(found.outcome, SceneFindings::Outcome::adequate);
   EXPECT_LT(found.nominal_excess, 0.4);
   EXPECT_TRUE(found.candidates.empty());
+}
+
+// The fitted trial is right. Of what acts in the other one alone nothing may be called adequate.
+TEST_F(SceneSearch, ATrialHeldOutMayObject) {
+  at_.trials += "  - {name: again, folder: push, robot: {follows: joints}}\n";
+  EXPECT_EQ(search({}).outcome, SceneFindings::Outcome::adequate);
+  spoil_ = [](SceneExperiment& made) { made.trials[1].wrenches[0].value *= 1.3; };
+  EXPECT_EQ(search({}).outcome, SceneFindings::Outcome::unknown);
 }
 
 TEST_F(SceneSearch, AWrongGainIsFoundWithItsSize) {
