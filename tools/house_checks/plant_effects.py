@@ -8,9 +8,6 @@ import re
 EFFECTS = "plugins/effects"
 FOLDERS = ("app/", "plugins/")
 KEYS = {"youngs_modulus", "density", "damping_time", "wind", "latency"}
-# What still knows a name, and why: the junctions that another solver softens are that effect at a
-# size below what anybody would name.
-KNOWN = {("plugins/discrepancy/fit/causes.cpp", "attachment_compliance")}
 STRING = re.compile(r"//[^\n]*|\"((?:[^\"\\\n]|\\.)*)\"")
 
 
@@ -33,5 +30,5 @@ def check(texts):
         for path, text in texts.items()
         if str(path).startswith(FOLDERS) and str(path.parent) != EFFECTS
         for line, said in strings_of(text)
-        if said in names and (str(path), said) not in KNOWN
+        if said in names
     ]

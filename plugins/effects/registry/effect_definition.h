@@ -137,6 +137,10 @@ struct EffectDefinition {
   std::optional<double> plant::MaterialKnowledge::*known_to = nullptr;  ///< how well it is known
   std::string material_unit;
   std::string less, more;  ///< than the file says: "softer", "stiffer"
+  /// For the one effect that is what two honest solvers differ by where a branch leaves its stem:
+  /// it at the junction of `curve`, with sizes that nobody would name. `softest`, N m/rad, is the
+  /// most that a discretisation can make of it.
+  Start (*at_junction)(const std::string& curve, double softest) = nullptr;
 
   const EffectParameter* find(const std::string& parameter) const;
 };
