@@ -58,7 +58,11 @@ Hypothesis junction_nuisance(const Experiment& experiment, const Evidence& evide
   Diagnostics diagnostics;
   const auto built = plant::build_plant(experiment.plant, {}, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
+  const auto& known = effects::effect_definitions();
+  const auto spring = std::ranges::find_if(
+      known, [](const effects::EffectDefinition& one) { return one.at_junction != nullptr; });
   Hypothesis all;
+  if (spring == known.end()) return all;
   std::vector<char> seen(experiment.plant.curves.size(), 0);
   for (const plant::BuiltPlant::Span& span : built->spans) {
     const cosserat::Element& element = built->model.elements[span.element];
@@ -69,12 +73,9 @@ Hypothesis junction_nuisance(const Experiment& experiment, const Evidence& evide
     // bend2). The softest joint that is allowed gives `most_discretisation` times that.
     const double softest =
         (section.bend1 + section.bend2) / (evidence.most_discretisation * element.length);
-    all.add(effects::Start("attachment_compliance")
-                .place(experiment.plant.curves[span.curve].name, 0.0)
-                .positive("stiffness", 4.0 * softest, softest, 1e3 * softest)
-                // About a stiff joint, and wide: a factor of seven either way is nothing unusual.
-                // So junctions that no data see stay out of the way.
-                .prior(2.0, 8.0 * softest));
+    // The start is far stiffer than the softest, and its prior wide: junctions that no data see
+    // stay out of the way.
+    all.add(spring->at_junction(experiment.plant.curves[span.curve].name, softest));
   }
   // As above: a nuisance is no finding.
   all.name.clear();

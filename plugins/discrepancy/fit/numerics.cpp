@@ -115,10 +115,11 @@ class Comparison {
     // it widens their intervals.
     check.parameter_shift = believable_step(base_, by_step + by_mesh);
     for (int p = 0; p < check.parameter_shift.size(); ++p)
-      for (std::size_t i = 0; i < Shift::names.size(); ++i) {
+      for (std::size_t i = 0; i < Shift::count; ++i) {
         const FreeParameter& free = base_.hypothesis.free[p];
         // The rest moved them by its own step; the shift is of the factors themselves.
-        if (free.name == "factor" && base_.hypothesis.effects[free.effect].name == Shift::names[i])
+        if (free.name == "factor" &&
+            base_.hypothesis.effects[free.effect].name == Shift::names()[i])
           check.parameter_shift[p] += made_.own.shift.logarithm[i];
       }
     // Of both together, with their signs: where they cancel the prediction is as good as it looks.

@@ -52,6 +52,14 @@ plant::CurvePlace parse_place(const std::string& word, const std::string& text,
   return place;
 }
 
+// "youngs_modulus, density, damping_time".
+std::string factor_names() {
+  std::string names;
+  for (const effects::EffectDefinition* one : effects::material_factors())
+    names += (names.empty() ? "" : ", ") + one->name;
+  return names;
+}
+
 Word parse(const std::string& text, const Experiment& experiment) {
   Word word;
   word.text = text;
@@ -76,9 +84,7 @@ Word parse(const std::string& text, const Experiment& experiment) {
   const effects::EffectDefinition* kind = effects::find_effect(word.effect);
   // The name of an effect alone could mean any of its numbers, so it is not taken for all of them.
   if (!kind || (dot == std::string::npos && !material))
-    refuse(text,
-           "expected youngs_modulus, density, damping_time, or EFFECT.PARAMETER of a known "
-           "effect");
+    refuse(text, "expected " + factor_names() + ", or EFFECT.PARAMETER of a known effect");
   // A place is no parameter of an effect, but a fit may move it like one.
   const bool moves = kind->needs_place && word.parameter == "at";
   std::string known;

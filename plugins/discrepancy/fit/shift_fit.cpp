@@ -43,15 +43,15 @@ ShiftFit::ShiftFit(Simulator& simulator, const DataSet& data, const Hypothesis& 
   // To one side. It need not be exact: whoever uses the shift simulates with it, and adds what it
   // still lacks.
   const double step = options.settings->accuracy.shift_step;
-  // All three, fitted or not: a number that is held in the model is still what a coarse mesh gets
+  // All of them, fitted or not: a number that is held in the model is still what a coarse mesh gets
   // wrong.
-  std::vector<Shift> shifts(Shift::names.size() + 1, own);
-  for (std::size_t i = 0; i < Shift::names.size(); ++i) shifts[i + 1].logarithm[i] += step;
+  std::vector<Shift> shifts(Shift::count + 1, own);
+  for (std::size_t i = 0; i < Shift::count; ++i) shifts[i + 1].logarithm[i] += step;
   std::vector<Predictions> moved = run_shifted(simulator, model, shifts);
   // About the shift that is there already, as predictions of the model are.
   now_ = std::move(moved.front());
-  by_parameter_.resize(data.size(options.trials), static_cast<Eigen::Index>(Shift::names.size()));
-  for (std::size_t i = 0; i < Shift::names.size(); ++i)
+  by_parameter_.resize(data.size(options.trials), Shift::count);
+  for (std::size_t i = 0; i < Shift::count; ++i)
     // Whitened, so that what a shift explains is counted in noise units, as everything else is.
     by_parameter_.col(static_cast<Eigen::Index>(i)) = change(moved[i + 1], now_) / step;
 }
@@ -78,13 +78,14 @@ Shift ShiftFit::stands_for(const Predictions& to, const Predictions& from) const
   // A free swing sees modulus over density alone. Bare least squares would find any large pair of
   // both for a small change of the period, and put it into statics, where it is wrong.
   const double usual = options_.settings->accuracy.usual_shift;
-  const Eigen::Matrix3d information =
-      by_parameter_.transpose() * by_parameter_ + Eigen::Matrix3d::Identity() / (usual * usual);
+  using Square = Eigen::Matrix<double, Shift::count, Shift::count>;
+  const Square information =
+      by_parameter_.transpose() * by_parameter_ + Square::Identity() / (usual * usual);
   // Normal equations do here: what was added to their diagonal bounds their condition.
-  const Eigen::Vector3d found =
+  const Eigen::Vector<double, Shift::count> found =
       information.ldlt().solve(by_parameter_.transpose() * change(to, from));
   Shift shift;
-  for (int i = 0; i < 3; ++i) shift.logarithm[i] = found[i];
+  for (int i = 0; i < Shift::count; ++i) shift.logarithm[i] = found[i];
   return shift;
 }
 
