@@ -8,6 +8,9 @@
 
 #include "pedicel/app/help/manual_cells.h"
 #include "pedicel/core/check.h"
+#include "pedicel/discrepancy/data/experiment_keys.h"
+#include "pedicel/discrepancy/scene/scene_experiment_keys.h"
+#include "pedicel/discrepancy/select/verdict_keys.h"
 #include "pedicel/io/key.h"
 #include "pedicel/world/scene_reader.h"
 
@@ -23,7 +26,10 @@ struct KeyPage {
   std::vector<const io::KeyList*> (*lists)();
   KeysOf kind = KeysOf::read_file;
 };
-constexpr KeyPage key_pages[] = {{"scene_file", world::scene_keys}};
+constexpr KeyPage key_pages[] = {{"scene_file", world::scene_keys},
+                                 {"experiment", discrepancy::experiment_keys},
+                                 {"scene_experiment", discrepancy::scene_experiment_keys},
+                                 {"verdict", discrepancy::verdict_keys, KeysOf::written_file}};
 
 const KeyPage& page_of(const std::string& page) {
   const auto* found =

@@ -73,7 +73,6 @@ RULES = [
     Rule("settings.md", ("plugins/coupling/coupling_settings.cpp",), (PARAMETER,), 8),
     Rule("settings.md", ("app/plants/rod_options.cpp",), (WORD,), 3, end=""),
     Rule("settings.md", ("plugins/plant/plant_numbers.cpp",), (DOTTED,), 11),
-    Rule("verdict.md", ("plugins/discrepancy/select/verdict.cpp",), (JSON,), 30, end=""),
     Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),
     Rule("quantities.md", ("app/session/commands/session_commands.cpp",), (SCRIPT_QUANTITY,), 7),
     Rule("quantities.md", ("engine/world/recorder.cpp",), (COLUMN,), 16, end=""),
