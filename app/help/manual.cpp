@@ -4,9 +4,11 @@
 #include <iostream>
 #include <memory>
 
+#include "pedicel/app/help/key_tables.h"
 #include "pedicel/app/help/manual_rows.h"
 #include "pedicel/app/report/manual.h"
 #include "pedicel/core/exit_code.h"
+#include "pedicel/io/atomic_file.h"
 
 namespace pedicel::app {
 
@@ -14,10 +16,23 @@ namespace {
 
 struct ManualArguments {
   std::string page = "index";
+  std::string folder;  // of pages to be rewritten; empty: none
   bool text = false, pages = false, rows = false;
 };
 
+int rewrite(const std::filesystem::path& folder) {
+  for (const std::string& page : pages_of_keys()) {
+    const std::filesystem::path file = folder / (page + ".md");
+    const std::string before = io::read_file(file), after = with_key_tables(page, before);
+    if (after == before) continue;
+    io::write_file_atomically(file, after);
+    std::cout << file.string() << " changed" << std::endl;
+  }
+  return exit_ok;
+}
+
 int run(const ManualArguments& a) {
+  if (!a.folder.empty()) return rewrite(a.folder);
   if (a.rows) {
     for (const ManualRow& row : manual_rows()) {
       std::cout << row.page << '\t' << row.keys << "\t|";
@@ -52,6 +67,10 @@ std::function<int()> add_manual_verb(CLI::App& app) {
   verb->add_flag(
       "--rows", a->rows,
       "print the rows of the reference tables that come from the program's descriptions");
+  verb->add_option(
+      "--rewrite", a->folder,
+      "write the tables of keys into the pages of this folder as the program describes "
+      "them");
   return [a] { return run(*a); };
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pedicel/app/help/manual_cells.h"
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/core/exit_code.h"
 #include "pedicel/core/parameter.h"
@@ -9,7 +10,6 @@
 #include "pedicel/coupling/coupling_settings.h"
 #include "pedicel/discrepancy/settings/scene_settings.h"
 #include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_numbers.h"
 #include "pedicel/plant/plant_shape.h"
 #include "pedicel/world/settings.h"
@@ -18,39 +18,13 @@ namespace pedicel::app {
 
 namespace {
 
-std::string code(const std::string& text) {
-  return "`" + text + "`";
-}
-
-std::string number_text(double x) {
-  return io::format_number(x, 6);
-}
-
-// A sentence as the last cell of a row: a phrase without its full stop.
-std::string phrase(std::string sentence) {
-  if (sentence.ends_with('.')) sentence.pop_back();
-  return sentence;
-}
-
-std::string range_text(const io::Bounds& bounds) {
-  const bool low = std::isfinite(bounds.minimum), high = std::isfinite(bounds.maximum);
-  if (low && high)
-    return bounds.open_minimum
-               ? "above " + number_text(bounds.minimum) + ", at most " + number_text(bounds.maximum)
-               : number_text(bounds.minimum) + " to " + number_text(bounds.maximum);
-  if (low)
-    return bounds.open_minimum ? "above " + number_text(bounds.minimum)
-                               : number_text(bounds.minimum) + " or more";
-  return "any number";
-}
-
-std::string range_text(const effects::EffectParameter& parameter) {
+std::string range_of(const effects::EffectParameter& parameter) {
   if (parameter.size == 3)
-    return std::isfinite(parameter.bounds.minimum) ? "three numbers " + range_text(parameter.bounds)
+    return std::isfinite(parameter.bounds.minimum) ? "three numbers " + range_cell(parameter.bounds)
                                                    : "`[x, y, z]`";
   if (parameter.size > 1)
-    return std::to_string(parameter.size) + " numbers, " + range_text(parameter.bounds);
-  if (parameter.size > 0) return range_text(parameter.bounds);
+    return std::to_string(parameter.size) + " numbers, " + range_cell(parameter.bounds);
+  if (parameter.size > 0) return range_cell(parameter.bounds);
   std::string words;
   for (const std::string& word : parameter.words) words += (words.empty() ? "" : ", ") + code(word);
   return words.empty() ? "a name" : words;
@@ -64,7 +38,7 @@ void add_effects(std::vector<ManualRow>& rows) {
           {"effects",
            2,
            {code(one.name), code(parameter.name), parameter.size == 0 ? "" : parameter.unit,
-            parameter.required ? "needed" : parameter.otherwise, range_text(parameter),
+            parameter.required ? "needed" : parameter.otherwise, range_of(parameter),
             parameter.sentence}});
   }
 }
@@ -75,10 +49,10 @@ void add_parameters(std::vector<ManualRow>& rows, const std::vector<Parameter>& 
   for (const Parameter& one : settings) {
     const bool flag = std::holds_alternative<bool*>(one.value);
     const bool whole = std::holds_alternative<int*>(one.value);
-    const std::string bounds = number_text(one.minimum) + " to " + number_text(one.maximum);
+    const std::string bounds = number_cell(one.minimum) + " to " + number_cell(one.maximum);
     rows.push_back({page,
                     1,
-                    {code(one.name), one.unit, number_text(one.get()),
+                    {code(one.name), one.unit, number_cell(one.get()),
                      flag ? "0, 1" : (whole ? "whole, " : "") + bounds, phrase(one.sentence)}});
   }
 }
@@ -88,8 +62,8 @@ void add_settings(std::vector<ManualRow>& rows) {
     rows.push_back({"settings",
                     1,
                     {code(std::string(one.key)), std::string(one.unit), "the scene's",
-                     (one.whole() ? "whole, " : "") + number_text(one.minimum) + " to " +
-                         number_text(one.maximum),
+                     (one.whole() ? "whole, " : "") + number_cell(one.minimum) + " to " +
+                         number_cell(one.maximum),
                      phrase(std::string(one.sentence))}});
   cosserat::RodSettings rods;
   add_parameters(rows, cosserat::parameters_of(rods));
@@ -99,14 +73,14 @@ void add_settings(std::vector<ManualRow>& rows) {
     rows.push_back({"settings",
                     1,
                     {code(std::string(one.key)), std::string(one.unit), "the plant's",
-                     range_text(one.bounds), phrase(std::string(one.sentence))}});
+                     range_cell(one.bounds), phrase(std::string(one.sentence))}});
 }
 
 void add_sensors(std::vector<ManualRow>& rows) {
   for (const plant::ShapeFactor& one : plant::shape_factors())
     rows.push_back({"settings",
                     1,
-                    {code(std::string(one.key)), "1", "1", range_text(plant::shape_bounds),
+                    {code(std::string(one.key)), "1", "1", range_cell(plant::shape_bounds),
                      phrase(std::string(one.sentence))}});
   world::SceneLook look;
   add_parameters(rows, look.parameters());
@@ -122,7 +96,7 @@ void add_diagnosis_settings(std::vector<ManualRow>& rows, const char* page, Sett
   for (const discrepancy::DiagnosisSetting& one : discrepancy::described(defaults))
     rows.push_back({page,
                     1,
-                    {code(one.name), one.unit, number_text(one.get()),
+                    {code(one.name), one.unit, number_cell(one.get()),
                      std::string(discrepancy::to_string(one.kind)), phrase(one.sentence),
                      one.source, phrase(one.doubled)}});
 }

@@ -23,6 +23,18 @@ std::filesystem::path folder() {
   return assets / "manual";
 }
 
+/// Without the lines that are comments of Markdown: marks of tables that the program writes.
+std::string without_comments(const std::string& text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+    const std::string line = text.substr(at, end - at);
+    if (!line.starts_with("<!--")) out += line;
+    at = end;
+  }
+  return out;
+}
+
 bool has_screen() {
   for (const char* name : {"WAYLAND_DISPLAY", "DISPLAY"})
     if (const char* value = std::getenv(name); value && *value) return true;
@@ -43,7 +55,7 @@ std::vector<std::string> manual_pages() {
 std::string manual_text(const std::string& page) {
   const std::vector<std::string> pages = manual_pages();
   if (std::ranges::find(pages, page) != pages.end())
-    return io::read_text_file(folder() / (page + ".md"));
+    return without_comments(io::read_text_file(folder() / (page + ".md")));
   std::string all;
   for (const std::string& name : pages) all += (all.empty() ? "" : ", ") + name;
   throw UsageError("the manual has no page \"" + page + "\", expected one of: " + all);

@@ -6,6 +6,7 @@
 
 #include "pedicel/core/check.h"
 #include "pedicel/io/csv.h"
+#include "pedicel/world/scene_sections.h"
 #include "pedicel/world/settings.h"
 
 namespace pedicel::world {
@@ -71,7 +72,8 @@ bool set_camera(SceneCamera& camera, const std::string& rest, const std::string&
     }
   if (set_described(camera.noise, "noise", rest, text, asked)) return true;
   if (rest != "fov") return false;
-  camera.field_of_view = within(text, 0.01, 3.0, asked);
+  camera.field_of_view =
+      within(text, sections::view_angles.minimum, sections::view_angles.maximum, asked);
   return true;
 }
 

@@ -6,6 +6,55 @@ namespace pedicel::world::sections {
 
 namespace {
 
+using io::KeyType;
+using io::Told;
+
+const io::KeyList& expectation_list() {
+  const Told as_needed{"as the quantity needs"}, test{"one test"};
+  const auto subject = [&](const char* name, const char* form) {
+    return io::Key{.name = name,
+                   .type = KeyType::text,
+                   .otherwise = as_needed,
+                   .form = form,
+                   .sentence = "of what it is measured"};
+  };
+  static const io::KeyList keys{
+      "expectation",
+      "an expectation",
+      {{.name = "quantity",
+        .type = KeyType::text,
+        .form = "a [quantity](quantities.md#quantities-of-a-scene)",
+        .sentence = "what is measured"},
+       subject("fruit", "`PLANT/FRUIT`"),
+       subject("body", "name of a body"),
+       subject("plant", "name of a plant"),
+       subject("link", "name of a link"),
+       {.name = "is",
+        .unit = "of the quantity",
+        .otherwise = test,
+        .form = "a number, true or false",
+        .sentence = "it is exactly this"},
+       {.name = "between",
+        .type = KeyType::numbers,
+        .unit = "of the quantity",
+        .otherwise = test,
+        .form = "`[low, high]`",
+        .sentence = "it lies there, ends included"},
+       {.name = "above", .unit = "of the quantity", .otherwise = test, .sentence = "it is larger"},
+       {.name = "below", .unit = "of the quantity", .otherwise = test, .sentence = "it is smaller"},
+       {.name = "with_sweep",
+        .type = KeyType::word,
+        .otherwise = test,
+        .words = {"rises", "falls", "steady"},
+        .sentence = "how it goes with the values of the sweep"},
+       {.name = "within",
+        .unit = "1",
+        .otherwise = Told{"needed for `steady`"},
+        .bounds = io::positive,
+        .sentence = "largest deviation, as a fraction of the mean"}}};
+  return keys;
+}
+
 const MeasuredQuantity* find_quantity(const std::string& name) {
   for (const MeasuredQuantity& quantity : known_quantities())
     if (quantity.name == name) return &quantity;
@@ -27,7 +76,7 @@ Need need_of(const MeasuredQuantity& quantity, const std::string& subject) {
   return text.find(subject) != std::string_view::npos ? Need::must : Need::no;
 }
 
-void read_subjects(io::YamlMap& map, const MeasuredQuantity& quantity, Expectation& e) {
+void read_subjects(io::DescribedMap& map, const MeasuredQuantity& quantity, Expectation& e) {
   const std::pair<const char*, std::string*> subjects[] = {
       {"fruit", &e.fruit}, {"body", &e.body}, {"plant", &e.plant}, {"link", &e.link}};
   for (const auto& [key, value] : subjects) {
@@ -59,15 +108,15 @@ void read_between(const io::YamlNode& node, Expectation& e) {
 }
 
 /// with_sweep: rises | falls | steady; the last with `within`, the share of the mean.
-void read_with_sweep(const io::YamlNode& node, io::YamlMap& map, Expectation& e) {
-  const std::string word = node.choice("with_sweep", {"rises", "falls", "steady"});
+void read_with_sweep(const io::YamlNode& node, io::DescribedMap& map, Expectation& e) {
+  const std::string word = node.choice("with_sweep", map.key("with_sweep").words);
   if (word == "falls") e.test = Expectation::Test::falls_with_sweep;
   if (word != "steady") return;
   e.test = Expectation::Test::steady_over_sweep;
-  e.low = map.number("within", io::positive);
+  e.low = map.required_number("within");
 }
 
-void read_test(io::YamlMap& map, Expectation& e) {
+void read_test(io::DescribedMap& map, Expectation& e) {
   using Test = Expectation::Test;
   const std::pair<const char*, Test> tests[] = {{"is", Test::is},
                                                 {"between", Test::between},
@@ -96,9 +145,13 @@ void read_test(io::YamlMap& map, Expectation& e) {
 
 }  // namespace
 
+std::vector<const io::KeyList*> expectation_keys() {
+  return {&expectation_list()};
+}
+
 Expectation read_expectation(const io::YamlNode& node) {
   Expectation expectation;
-  io::YamlMap map(node, "an expectation");
+  io::DescribedMap map(node, expectation_list());
   expectation.where = node.position();
   const auto name = map.required("quantity");
   if (name) expectation.quantity = name->text("quantity");

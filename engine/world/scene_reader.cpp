@@ -11,24 +11,112 @@ namespace pedicel::world {
 
 namespace {
 
-void read_head(io::YamlMap& map, Scene& scene) {
+using io::KeyType;
+using io::Told;
+
+/// Plants, bodies and the like of a scene. The world compares the names of bodies with each other:
+/// 10,000 of them take 1.3 s of processor time and 93 MB, 60,000 took above 15 s and 0.5 GB.
+constexpr std::size_t most_named = 10'000;
+constexpr std::size_t most_effects = 1000;
+
+/// A number that scene_numbers() describes; its default is that of `Scene`.
+io::Key number_key(std::string_view name) {
+  static const Scene usual;
+  const auto all = scene_numbers();
+  const SceneNumber& one = *std::ranges::find(all, name, &SceneNumber::key);
+  return {.name = std::string(name),
+          .type = one.whole() ? KeyType::whole : KeyType::number,
+          .unit = std::string(one.unit),
+          .otherwise = one.whole() ? double(usual.*std::get<int Scene::*>(one.member))
+                                   : usual.*std::get<double Scene::*>(one.member),
+          .bounds = scene_bounds(name),
+          .sentence = std::string(one.sentence)};
+}
+
+io::Key needed_number_key(std::string_view name) {
+  io::Key key = number_key(name);
+  key.otherwise = io::Needed{};
+  return key;
+}
+
+/// A list or a map that has keys of its own, described elsewhere.
+io::Key part_key(const char* name, KeyType type, const char* sentence, const std::string& form = "",
+                 const char* otherwise = "none") {
+  return {
+      .name = name, .type = type, .otherwise = Told{otherwise}, .form = form, .sentence = sentence};
+}
+
+const io::KeyList& scene_list() {
+  static const std::string at_most_named = "at most " + std::to_string(most_named);
+  static const io::KeyList keys{
+      "scene",
+      "a scene",
+      {{.name = "format",
+        .type = KeyType::word,
+        .words = {"pedicel-scene"},
+        .sentence = "says what the file is"},
+       {.name = "version",
+        .type = KeyType::whole,
+        .bounds = {1, 1},
+        .sentence = "version of the format"},
+       {.name = "name",
+        .type = KeyType::text,
+        .otherwise = Told{"the file's name"},
+        .sentence = "name of the scene"},
+       {.name = "purpose",
+        .type = KeyType::text,
+        .sentence = "one sentence: what the scene is for"},
+       {.name = "see", .type = KeyType::text, .sentence = "what to look for"},
+       needed_number_key("duration"),
+       number_key("dt"),
+       number_key("seed"),
+       number_key("threads"),
+       number_key("log_rate"),
+       {.name = "gravity",
+        .type = KeyType::vector,
+        .unit = "m/s2",
+        .otherwise = Scene{}.gravity,
+        .bounds = {-most_gravity, most_gravity},
+        .sentence = "gravity"},
+       part_key("rods", KeyType::map, "settings of the rods: [Settings](settings.md#rods)"),
+       part_key("coupling", KeyType::map, "settings of contact: [Settings](settings.md#coupling)"),
+       part_key("plants", KeyType::list, "plants, below", at_most_named),
+       part_key("robot", KeyType::map, "one robot, below"),
+       part_key("bodies", KeyType::list, "rigid things, below", at_most_named),
+       part_key("ground", KeyType::map, "a level plane, below"),
+       part_key("loads", KeyType::list, "forces on fruits, below"),
+       part_key("ties", KeyType::list, "strings that hold plants, below"),
+       part_key("cuts", KeyType::list, "cuts through stems, below"),
+       part_key("wind", KeyType::map, "wind over the scene, below"),
+       part_key("effects", KeyType::list,
+                "what robot, contact, plants and sensors do beyond the plain model, below",
+                "at most " + std::to_string(most_effects)),
+       part_key("cameras", KeyType::list, "views, below", at_most_named),
+       part_key("wrenches", KeyType::list, "force sensors of the robot, below", at_most_named),
+       part_key("look", KeyType::map, "light and colours: [Settings](settings.md#looks)", "",
+                "defaults"),
+       part_key("vary", KeyType::map, "what differs from seed to seed, below"),
+       part_key("pictures", KeyType::list, "pictures of a run, below"),
+       part_key("video", KeyType::map, "film of a run, below", "", "defaults"),
+       part_key("sweep", KeyType::map, "a setting with several values, below"),
+       part_key("expect", KeyType::list, "what must come out, below")}};
+  return keys;
+}
+
+void read_head(io::DescribedMap& map, Scene& scene) {
   std::string stem = scene.file.stem().string();  // without .yaml
   if (stem.ends_with(".scene")) stem.resize(stem.size() - 6);
-  scene.name = map.text("name", stem);
+  scene.name = map.text("name");
+  if (!map.has("name")) scene.name = stem;
   scene.purpose = map.text("purpose");
   scene.see = map.text("see");
-  scene.duration = map.number("duration", scene_bounds("duration"));
-  scene.dt = map.number("dt", scene_bounds("dt"), scene.dt);
-  scene.log_rate = map.number("log_rate", scene_bounds("log_rate"), scene.log_rate);
-  const auto whole = [&](const char* key, int otherwise) {
-    const io::Bounds bounds = scene_bounds(key);
-    return map.integer(key, static_cast<int>(bounds.minimum), static_cast<int>(bounds.maximum),
-                       otherwise);
-  };
-  scene.seed = whole("seed", scene.seed);
-  scene.threads = whole("threads", scene.threads);
-  scene.gravity = map.vector("gravity", scene.gravity);
-  if (scene.gravity.cwiseAbs().maxCoeff() > most_gravity)
+  scene.duration = map.number("duration");
+  scene.dt = map.number("dt");
+  scene.log_rate = map.number("log_rate");
+  scene.seed = map.integer("seed");
+  scene.threads = map.integer("threads");
+  scene.gravity = map.vector("gravity");
+  if (scene.gravity.cwiseAbs().maxCoeff() > map.key("gravity").bounds.maximum)
     map.optional("gravity")->error("gravity: expected three numbers between -100 and 100 m/s2");
   if (const auto rods = map.optional("rods")) scene.rods = sections::read_settings(*rods, "rods");
   if (const auto coupling = map.optional("coupling"))
@@ -36,18 +124,14 @@ void read_head(io::YamlMap& map, Scene& scene) {
 }
 
 template <class Item, class Read>
-void read_list(io::YamlMap& map, const char* key, std::vector<Item>& items, const Read& read) {
+void read_list(io::DescribedMap& map, const char* key, std::vector<Item>& items, const Read& read) {
   for (const io::YamlNode& node : map.list(key)) items.push_back(read(node));
 }
 
-/// Plants, bodies and the like of a scene. The world compares the names of bodies with each other:
-/// 10,000 of them take 1.3 s of processor time and 93 MB, 60,000 took above 15 s and 0.5 GB.
-constexpr std::size_t most_named = 10'000;
-constexpr std::size_t most_effects = 1000;
-
 /// As read_list(), and names must be unique.
 template <class Item, class Read>
-void read_named(io::YamlMap& map, const char* key, std::vector<Item>& items, const Read& read) {
+void read_named(io::DescribedMap& map, const char* key, std::vector<Item>& items,
+                const Read& read) {
   std::set<std::string> names;
   for (const io::YamlNode& node : map.list(key)) {
     if (items.size() == most_named)
@@ -63,7 +147,7 @@ void read_named(io::YamlMap& map, const char* key, std::vector<Item>& items, con
   }
 }
 
-void read_things(io::YamlMap& map, const std::filesystem::path& folder, Scene& scene) {
+void read_things(io::DescribedMap& map, const std::filesystem::path& folder, Scene& scene) {
   read_named(map, "plants", scene.plants,
              [&](const io::YamlNode& node) { return sections::read_plant(node, folder); });
   if (const auto robot = map.optional("robot")) scene.robot = sections::read_robot(*robot, folder);
@@ -81,7 +165,7 @@ void read_things(io::YamlMap& map, const std::filesystem::path& folder, Scene& s
   }
 }
 
-void read_views(io::YamlMap& map, Scene& scene) {
+void read_views(io::DescribedMap& map, Scene& scene) {
   read_named(map, "cameras", scene.cameras, sections::read_camera);
   read_named(map, "wrenches", scene.wrenches, sections::read_wrench);
   if (const auto look = map.optional("look")) scene.look = sections::read_look(*look);
@@ -152,7 +236,7 @@ void check_vary(const Scene& scene, Diagnostics& diagnostics) {
   }
 }
 
-void check_references(io::YamlMap& map, const Scene& scene, Diagnostics& diagnostics) {
+void check_references(io::DescribedMap& map, const Scene& scene, Diagnostics& diagnostics) {
   for (const SceneLoad& load : scene.loads)
     check_fruit(scene, load.target, load.where, diagnostics);
   for (const SceneTie& tie : scene.ties) {
@@ -184,8 +268,8 @@ std::optional<Scene> read(const io::YamlNode& root, const std::filesystem::path&
                           Diagnostics& diagnostics) {
   Scene scene;
   scene.file = path;
-  io::YamlMap map(root, "a scene");
-  if (!io::check_format(map, "pedicel-scene", 1)) return std::nullopt;
+  io::DescribedMap map(root, scene_list());
+  if (!map.has_format()) return std::nullopt;
   read_head(map, scene);
   read_things(map, path.parent_path(), scene);
   read_views(map, scene);
@@ -212,6 +296,16 @@ std::optional<Scene> read_from(Parse parse, const std::filesystem::path& path,
 }
 
 }  // namespace
+
+std::vector<const io::KeyList*> scene_keys() {
+  std::vector<const io::KeyList*> all = {&scene_list(), &sections::pose_keys(),
+                                         &sections::thing_keys()};
+  for (const auto& some : {sections::plant_keys(), sections::robot_keys(), sections::body_keys(),
+                           sections::sensor_keys(), sections::view_keys(),
+                           sections::expectation_keys(), variation_keys()})
+    all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
 
 std::optional<Scene> read_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
   return read_from([&] { return io::load_yaml(path, diagnostics); }, path, diagnostics);

@@ -3,10 +3,19 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pedicel/world/scene.h"
 
+namespace pedicel::io {
+struct KeyList;
+}
+
 namespace pedicel::world {
+
+/// The keys of all maps of a scene file and of a file of what varies. They live as long as the
+/// program.
+std::vector<const io::KeyList*> scene_keys();
 
 /// Reads a scene file (`format: pedicel-scene`). Every fault goes to `diagnostics` with its line
 /// and column; nothing comes back where there is one. Files that the scene names are looked for,

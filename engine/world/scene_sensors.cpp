@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pedicel/io/csv.h"
+#include "pedicel/io/thing_bounds.h"
 #include "pedicel/world/scene_sections.h"
 #include "pedicel/world/settings.h"
 
@@ -8,17 +10,116 @@ namespace pedicel::world::sections {
 
 namespace {
 
+using io::KeyType;
+using io::Told;
+
 constexpr io::Bounds sensor_rates{1e-3, 1e4};
 
+std::vector<std::string> sensor_words() {
+  std::vector<std::string> words;
+  for (int s = 0; s < sensor_count; ++s) words.emplace_back(name_of(static_cast<Sensor>(s)));
+  return words;
+}
+
+const io::KeyList& camera_list() {
+  static const io::KeyList keys{
+      "camera",
+      "a camera",
+      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the camera"},
+       {.name = "eye",
+        .type = KeyType::vector,
+        .unit = "m",
+        .bounds = io::place_bounds,
+        .sentence = "where it stands"},
+       {.name = "target",
+        .type = KeyType::vector,
+        .unit = "m",
+        .otherwise = SceneCamera{}.target,
+        .bounds = io::place_bounds,
+        .form = "apart from `eye`",
+        .sentence = "where it looks"},
+       {.name = "fov",
+        .unit = "rad",
+        .otherwise = SceneCamera{}.field_of_view,
+        .bounds = view_angles,
+        .sentence = "vertical field of view"},
+       {.name = "follow",
+        .type = KeyType::map,
+        .otherwise = Told{"none"},
+        .form = "a thing",
+        .sentence = "it goes with this; `eye` and `target` then count from it"},
+       {.name = "position",
+        .type = KeyType::vector,
+        .unit = "m",
+        .otherwise = Told{"in place of `eye`"},
+        .bounds = io::place_bounds,
+        .sentence = "where it stands, with `orientation`"},
+       {.name = "orientation",
+        .type = KeyType::rotation,
+        .otherwise = Told{"in place of `target`"},
+        .sentence = "turn of its frame: x right, y down, z forward"},
+       {.name = "focal",
+        .type = KeyType::numbers,
+        .unit = "px",
+        .otherwise = Told{"in place of `fov`"},
+        .bounds = io::positive,
+        .form = "one number, or twice the same",
+        .sentence = "focal length for its `size`"},
+       picture_size_key(SceneCamera{}.size, "width and height of what its sensors write"),
+       {.name = "sensors",
+        .type = KeyType::list,
+        .otherwise = Told{"none"},
+        .words = sensor_words(),
+        .sentence = "what a run [writes](cameras.md#files-of-a-run) of it"},
+       {.name = "rate",
+        .unit = "Hz",
+        .otherwise = SceneCamera{}.rate,
+        .bounds = sensor_rates,
+        .sentence = "how often"},
+       {.name = "noise",
+        .type = KeyType::map,
+        .otherwise = Told{"none"},
+        .sentence = "[noise](cameras.md#noise) of its sensors"}}};
+  return keys;
+}
+
+const io::KeyList& wrench_list() {
+  static const io::KeyList keys{
+      "wrench",
+      "a wrench",
+      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the sensor"},
+       {.name = "link",
+        .type = KeyType::text,
+        .form = "name of a link",
+        .sentence = "where it sits"},
+       {.name = "touch",
+        .type = KeyType::flag,
+        .otherwise = SceneWrench{}.touch,
+        .sentence = "only what plants and bodies exert on that link (a fingertip)"},
+       {.name = "tared",
+        .type = KeyType::flag,
+        .otherwise = SceneWrench{}.tared,
+        .sentence = "less its mean over the first 0.2 s; its table begins once that is known"},
+       {.name = "rate",
+        .unit = "Hz",
+        .otherwise = SceneWrench{}.rate,
+        .bounds = sensor_rates,
+        .sentence = "how often it is sampled"},
+       {.name = "noise",
+        .type = KeyType::map,
+        .otherwise = Told{"none"},
+        .sentence = "[noise](cameras.md#noise) of the sensor"}}};
+  return keys;
+}
+
 template <class Noise>
-void read_described(io::YamlMap& map, const char* key, Noise& noise) {
+void read_described(io::DescribedMap& map, const char* key, Noise& noise) {
   if (const auto node = map.optional(key))
     apply_settings(read_settings(*node, key), key, noise.parameters(), {}, node->diagnostics());
 }
 
 std::vector<Sensor> read_sensor_words(const io::YamlNode& node) {
-  std::vector<std::string> words;
-  for (int s = 0; s < sensor_count; ++s) words.emplace_back(name_of(static_cast<Sensor>(s)));
+  const std::vector<std::string> words = sensor_words();
   std::vector<Sensor> sensors;
   for (const io::YamlNode& one : node.list("sensors")) {
     const std::string word = one.choice("sensors", words);
@@ -32,7 +133,7 @@ std::vector<Sensor> read_sensor_words(const io::YamlNode& node) {
 }
 
 /// As measured cameras have it: a place and a turn of the frame with x right, y down, z forward.
-void read_optical_pose(io::YamlMap& map, SceneCamera& camera) {
+void read_optical_pose(io::DescribedMap& map, SceneCamera& camera) {
   if (map.has("eye") || map.has("target"))
     map.error("a camera: expected eye and target, or position and orientation, not both");
   const Pose pose = read_pose(map);
@@ -42,51 +143,49 @@ void read_optical_pose(io::YamlMap& map, SceneCamera& camera) {
 }
 
 /// `focal` in pixels in place of `fov`. Pictures have square pixels and the axis in their middle.
-void read_focal(io::YamlMap& map, SceneCamera& camera) {
+void read_focal(io::DescribedMap& map, SceneCamera& camera) {
   const auto node = map.optional("focal");
   if (!node) return;
   if (map.has("fov")) node->error("focal: expected fov or focal, not both");
   std::vector<double> focal;
   const int before = node->diagnostics().error_count();
   if (node->is_list())
-    focal = node->numbers("focal", io::positive);
+    focal = node->numbers("focal", map.key("focal").bounds);
   else
-    focal = {node->number("focal", io::positive)};
+    focal = {node->number("focal", map.key("focal").bounds)};
   if (node->diagnostics().error_count() > before) return;
   if (focal.empty() || focal.size() > 2 || (focal.size() == 2 && focal[0] != focal[1]))
     return node->error("focal: expected one length in pixels, or two equal ones");
   camera.field_of_view = 2.0 * std::atan(0.5 * camera.size[1] / focal[0]);
-  if (!(camera.field_of_view >= 0.01 && camera.field_of_view <= 3.0))
-    node->error("focal: gives a field of view beyond 0.01 to 3 rad");
-}
-
-void read_size(io::YamlMap& map, std::array<int, 2>& size) {
-  const auto node = map.optional("size");
-  if (!node) return;
-  const auto parts = node->list("size");
-  if (parts.size() != 2) return node->error("size: expected [width, height] in pixels");
-  for (std::size_t i = 0; i < 2; ++i) size[i] = parts[i].integer("size", 16, 8192);
+  const io::Bounds& angles = map.key("fov").bounds;
+  if (!io::within(camera.field_of_view, angles))
+    node->error("focal: gives a field of view beyond " + io::format_number(angles.minimum) +
+                " to " + io::format_number(angles.maximum) + " rad");
 }
 
 }  // namespace
 
+std::vector<const io::KeyList*> sensor_keys() {
+  return {&camera_list(), &wrench_list()};
+}
+
 SceneCamera read_camera(const io::YamlNode& node) {
   SceneCamera camera;
   const int before = node.diagnostics().error_count();
-  io::YamlMap map(node, "a camera");
+  io::DescribedMap map(node, camera_list());
   camera.name = map.text("name");
-  read_size(map, camera.size);
+  read_picture_size(map, camera.size);
   if (map.has("orientation")) {
     read_optical_pose(map, camera);
   } else {
     camera.eye = read_place(map, "eye");
-    camera.target = read_place(map, "target", Vec3::Zero());
+    camera.target = read_place(map, "target");
   }
-  camera.field_of_view = map.number("fov", {0.01, 3.0}, camera.field_of_view);
+  camera.field_of_view = map.number("fov");
   read_focal(map, camera);
   if (const auto follow = map.optional("follow")) camera.follow = read_anchor(*follow, "follow");
   if (const auto words = map.optional("sensors")) camera.sensors = read_sensor_words(*words);
-  camera.rate = map.number("rate", sensor_rates, camera.rate);
+  camera.rate = map.number("rate");
   read_described(map, "noise", camera.noise);
   const bool is_read = node.diagnostics().error_count() == before;
   if (is_read && !((camera.eye - camera.target).norm() > 1e-6))
@@ -97,13 +196,13 @@ SceneCamera read_camera(const io::YamlNode& node) {
 
 SceneWrench read_wrench(const io::YamlNode& node) {
   SceneWrench wrench;
-  io::YamlMap map(node, "a wrench");
+  io::DescribedMap map(node, wrench_list());
   wrench.where = node.position();
   wrench.name = map.text("name");
   wrench.link = map.text("link");
-  wrench.touch = map.boolean("touch", false);
-  wrench.tared = map.boolean("tared", false);
-  wrench.rate = map.number("rate", sensor_rates, wrench.rate);
+  wrench.touch = map.boolean("touch");
+  wrench.tared = map.boolean("tared");
+  wrench.rate = map.number("rate");
   read_described(map, "noise", wrench.noise);
   map.finish();
   return wrench;

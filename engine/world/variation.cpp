@@ -5,11 +5,17 @@
 
 #include "pedicel/core/random.h"
 #include "pedicel/io/csv.h"
-#include "pedicel/io/yaml.h"
+#include "pedicel/world/scene_sections.h"
 
 namespace pedicel::world {
 
 namespace {
+
+using io::KeyType;
+using io::Told;
+
+/// Of the logarithm of a mean there must be a finite one.
+constexpr double least_lognormal = 1.0e-300, largest_varied = 1.0e300;
 
 using Distribution = VariedNumber::Distribution;
 
@@ -20,18 +26,73 @@ const std::vector<std::string>& distribution_words() {
   return words;
 }
 
-void read_bounds(io::YamlMap& map, VariedNumber& one, bool required) {
+const io::KeyList& varied_list() {
+  const Told limit{"needed for `uniform`"}, mean{"needed for normal and lognormal"};
+  static const io::KeyList keys{"varied",
+                                "what varies",
+                                {{.name = "distribution",
+                                  .type = KeyType::word,
+                                  .otherwise = distribution_words().front(),
+                                  .words = distribution_words(),
+                                  .sentence = "how the value is drawn"},
+                                 {.name = "low",
+                                  .unit = "of the key",
+                                  .otherwise = limit,
+                                  .sentence = "not below this; else it is drawn again"},
+                                 {.name = "high",
+                                  .unit = "of the key",
+                                  .otherwise = limit,
+                                  .form = "`low` or more",
+                                  .sentence = "not above this; else it is drawn again"},
+                                 {.name = "mean",
+                                  .unit = "of the key",
+                                  .otherwise = mean,
+                                  .bounds = {-largest_varied, largest_varied},
+                                  .form = "above 0 for lognormal",
+                                  .sentence = "of the value itself, also of a lognormal one"},
+                                 {.name = "deviation",
+                                  .unit = "of the key",
+                                  .otherwise = mean,
+                                  .bounds = {0.0, largest_varied},
+                                  .sentence = "of the value itself, also of a lognormal one"},
+                                 {.name = "values",
+                                  .type = KeyType::list,
+                                  .otherwise = Told{"needed for `choice`"},
+                                  .form = "one or more",
+                                  .sentence = "one of these"}}};
+  return keys;
+}
+
+const io::KeyList& variation_list() {
+  static const io::KeyList keys{"variation",
+                                "a variation",
+                                {{.name = "format",
+                                  .type = KeyType::word,
+                                  .words = {"pedicel-variation"},
+                                  .sentence = "says what the file is"},
+                                 {.name = "version",
+                                  .type = KeyType::whole,
+                                  .bounds = {1, 1},
+                                  .sentence = "version of the format"},
+                                 {.name = "vary",
+                                  .type = KeyType::map,
+                                  .form = "keys of `--set` with distributions",
+                                  .sentence = "what varies"}}};
+  return keys;
+}
+
+void read_bounds(io::DescribedMap& map, VariedNumber& one, bool required) {
   const int before = map.node().diagnostics().error_count();
   one.low = -std::numeric_limits<double>::infinity();
   one.high = -one.low;
-  if (required || map.has("low")) one.low = map.number("low", io::any_number);
-  if (required || map.has("high")) one.high = map.number("high", io::any_number);
+  if (required || map.has("low")) one.low = map.required_number("low");
+  if (required || map.has("high")) one.high = map.required_number("high");
   const bool is_read = map.node().diagnostics().error_count() == before;
   if (is_read && map.has("low") && map.has("high") && one.low > one.high)
     map.error("low is above high, expected low <= high");
 }
 
-void read_values(io::YamlMap& map, VariedNumber& one) {
+void read_values(io::DescribedMap& map, VariedNumber& one) {
   const auto node = map.required("values");
   if (node)
     for (const io::YamlNode& value : node->list("values"))
@@ -45,8 +106,8 @@ VariedNumber read_number(const std::string& key, const io::YamlNode& node) {
   VariedNumber one;
   one.key = key;
   one.where = node.position();
-  io::YamlMap map(node, "what varies");
-  const std::string word = map.choice("distribution", distribution_words(), "uniform");
+  io::DescribedMap map(node, varied_list());
+  const std::string word = map.choice("distribution");
   const auto found = std::ranges::find(distribution_words(), word) - distribution_words().begin();
   one.distribution = static_cast<Distribution>(found);
   if (one.distribution == Distribution::choice) {
@@ -54,9 +115,10 @@ VariedNumber read_number(const std::string& key, const io::YamlNode& node) {
   } else if (one.distribution == Distribution::uniform) {
     read_bounds(map, one, true);
   } else {
-    const double least = one.distribution == Distribution::lognormal ? 1.0e-300 : -1.0e300;
-    one.mean = map.number("mean", {least, 1.0e300});
-    one.deviation = map.number("deviation", {0.0, 1.0e300});
+    io::Bounds means = map.key("mean").bounds;
+    if (one.distribution == Distribution::lognormal) means.minimum = least_lognormal;
+    if (const auto mean = map.required("mean")) one.mean = mean->number("mean", means);
+    one.deviation = map.required_number("deviation");
     read_bounds(map, one, false);
   }
   map.finish();
@@ -85,6 +147,10 @@ std::string draw_text(const VariedNumber& one, Random& random) {
 
 }  // namespace
 
+std::vector<const io::KeyList*> variation_keys() {
+  return {&varied_list(), &variation_list()};
+}
+
 std::vector<VariedNumber> read_vary(const io::YamlNode& node) {
   std::vector<VariedNumber> all;
   if (!node.is_map()) {
@@ -105,8 +171,8 @@ std::vector<VariedNumber> read_vary(const io::YamlNode& node) {
 Variation Variation::read(const std::filesystem::path& path) {
   Diagnostics diagnostics;
   Variation variation;
-  io::YamlMap map(io::load_yaml(path, diagnostics), "a variation");
-  if (io::check_format(map, "pedicel-variation", 1)) {
+  io::DescribedMap map(io::load_yaml(path, diagnostics), variation_list());
+  if (map.has_format()) {
     if (const auto vary = map.required("vary")) variation.numbers_ = read_vary(*vary);
     map.finish();
   }

@@ -61,6 +61,31 @@ CurvePlace read_place(io::YamlMap& map, bool whole_curve) {
   return place;
 }
 
+const io::KeyList& place_keys() {
+  static const io::KeyList keys{
+      "place",
+      "a place",
+      {{.name = "curve",
+        .type = io::KeyType::text,
+        .form = "name of a curve",
+        .sentence = "the curve"},
+       {.name = "at",
+        .unit = "1",
+        .bounds = io::fraction,
+        .sentence = "fraction of the curve's arc length, as drawn, from its first point"}}};
+  return keys;
+}
+
+CurvePlace read_place(io::DescribedMap& map) {
+  CurvePlace place;
+  if (const auto curve = map.asked("curve")) {
+    place.curve = curve->text("curve");
+    place.where = curve->position();
+  }
+  place.at = map.number("at");
+  return place;
+}
+
 void read_effect_parameters(io::YamlMap& map, const std::vector<EffectParameter>& parameters,
                             Effect& effect) {
   for (const EffectParameter& parameter : parameters) read_parameter(map, parameter, effect);

@@ -1,13 +1,17 @@
 #pragma once
 
 #include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/yaml.h"
+#include "pedicel/io/described_map.h"
 
 namespace pedicel::plant {
 
 /// Reads `where: {curve, at}`-like keys out of a map that holds them directly. `whole_curve`: the
 /// curve alone counts, and `at` may be left out.
 CurvePlace read_place(io::YamlMap& map, bool whole_curve = false);
+
+/// The keys of a place on a curve, and a place out of a map that has them among its own.
+const io::KeyList& place_keys();
+CurvePlace read_place(io::DescribedMap& map);
 
 /// Reads the parameters of an effect out of its map.
 void read_effect_parameters(io::YamlMap& map,

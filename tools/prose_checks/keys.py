@@ -79,7 +79,6 @@ RULES = [
          end=LISTS, within="&DetachLimits::"),
     Rule("settings.md", ("plugins/plant/model/plant_model.h",), (DESCRIBED,), 2, prefix="sampling.",
          end=LISTS, within="&PlantFile::connect"),
-    Rule("verdict.md", ("plugins/discrepancy/select/verdict.cpp",), (JSON,), 30, end=""),
     Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),
     Rule("quantities.md", ("app/session/commands/session_commands.cpp",), (SCRIPT_QUANTITY,), 7),
     Rule("quantities.md", ("engine/world/recorder.cpp",), (COLUMN,), 16, end=""),

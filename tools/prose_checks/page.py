@@ -52,7 +52,7 @@ class Page:
             if line.lstrip().startswith("|"):
                 cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip())[1:-1]]
                 self.rows.append((number, section, cells))
-            if heading or not line.strip() or line.lstrip().startswith("|"):
+            if heading or not line.strip() or line.lstrip().startswith(("|", "<!--")):
                 paragraph = None
                 continue
             if paragraph is None or ITEM.match(line):

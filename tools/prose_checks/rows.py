@@ -55,8 +55,7 @@ def update(name, lines, text):
 
 # Pages of files have sentences of their own. Unit and bounds are those of the settings all the same:
 # one number is described once.
-FILES = {"material": "plant_file.md", "detach": "plant_file.md", "": "scene_file.md"}
-SCENE_NUMBERS = {"duration", "dt", "log_rate", "seed", "threads"}
+FILES = {"material": "plant_file.md", "detach": "plant_file.md"}
 
 
 def as_numbers(cell):
@@ -70,7 +69,7 @@ def check_bounds(pages, text):
     for page, key, row in wanted(text):
         name = key[0].strip("`")
         group, _, last = name.rpartition(".")
-        if page != "settings.md" or group not in FILES or (not group and name not in SCENE_NUMBERS):
+        if page != "settings.md" or group not in FILES:
             continue
         told, cells = pages[FILES[group]], cells_of(row)
         # The first row of that name within the section: a fruit has a density, too.

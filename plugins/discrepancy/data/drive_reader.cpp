@@ -9,10 +9,99 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-using io::YamlMap;
+using io::DescribedMap;
+using io::KeyType;
+using io::Told;
 using io::YamlNode;
 
 constexpr double unit_within = 0.01;  // 1, of a unit vector's length
+
+const io::KeyList& drive_list() {
+  static const io::KeyList keys{"drive",
+                                "a drive",
+                                {{.name = "kind",
+                                  .type = KeyType::word,
+                                  .words = {"hold", "load", "base", "none"},
+                                  .sentence = "what was done; `none` beside no other"}}};
+  return keys;
+}
+
+const io::KeyList& hold_list() {
+  static const io::KeyList keys{
+      "hold",
+      "a drive",
+      {{.name = "path", .type = KeyType::path, .form = "a table", .sentence = "its known path"},
+       {.name = "release",
+        .unit = "s",
+        .otherwise = Told{"end of the path"},
+        .bounds = io::positive,
+        .sentence = "free from then on"},
+       {.name = "stiffness",
+        .unit = "N/m",
+        .otherwise = Told{"rigid"},
+        .bounds = io::positive,
+        .sentence = "spring between the point and its path"},
+       {.name = "axes",
+        .type = KeyType::list,
+        .otherwise = Told{"all"},
+        .words = {"x", "y", "z"},
+        .sentence =
+            "it leads along these axes of the world, and the point slides along the others"},
+       {.name = "axis",
+        .type = KeyType::vector,
+        .unit = "1",
+        .otherwise = Told{"all"},
+        .form = "a unit vector",
+        .sentence = "the same along one axis, in place of `axes`"},
+       {.name = "one_sided",
+        .type = KeyType::flag,
+        .otherwise = Hold{}.one_sided,
+        .form = "with one axis",
+        .sentence = "it only pushes, along the axis"},
+       {.name = "direction",
+        .type = KeyType::flag,
+        .otherwise = Hold{}.direction,
+        .form = "with an orientation in the path",
+        .sentence = "it leads the segment's direction, and its twist is free"}},
+      "",
+      {&drive_list(), &plant::place_keys()}};
+  return keys;
+}
+
+const io::KeyList& load_list() {
+  static const io::KeyList keys{
+      "load",
+      "a drive",
+      {{.name = "force", .type = KeyType::vector, .unit = "N", .sentence = "in the world"},
+       {.name = "from", .unit = "s", .otherwise = Told{"always"}, .sentence = "it acts from here"},
+       {.name = "to",
+        .unit = "s",
+        .otherwise = Told{"always"},
+        .form = "after `from`",
+        .sentence = "it ends here"}},
+      "",
+      {&drive_list(), &plant::place_keys()}};
+  return keys;
+}
+
+const io::KeyList& base_list() {
+  static const io::KeyList keys{
+      "base",
+      "a drive",
+      {{.name = "path",
+        .type = KeyType::path,
+        .otherwise = Told{"needed without `wrench`"},
+        .form = "a table",
+        .sentence = "path of the root; one base at most"},
+       {.name = "wrench",
+        .type = KeyType::path,
+        .otherwise = Told{"none"},
+        .form = "a table",
+        .sentence = "[force and moment](#force-and-moment-at-the-root) at the root"}},
+      "",
+      {&drive_list()}};
+  return keys;
+}
 
 class DriveReader {
  public:
@@ -21,19 +110,27 @@ class DriveReader {
       : folder_(folder), check_(check), trial_(trial), diagnostics_(diagnostics) {}
 
   void read(const YamlNode& node) {
-    YamlMap map(node, "a drive");
+    DescribedMap map(node, drive_list());
     if (!map.required("kind")) return;
-    const std::string kind = map.choice("kind", {"hold", "load", "base", "none"}, "none");
-    if (kind == "hold") trial_.holds.push_back(read_hold(map));
-    if (kind == "load") trial_.loads.push_back(read_load(map));
-    if (kind == "base") read_base(node, map);
-    none_ = none_ || kind == "none";
+    const std::string kind = map.choice("kind");
+    if (kind == "hold") trial_.holds.push_back(read_hold(node));
+    if (kind == "load") trial_.loads.push_back(read_load(node));
+    if (kind == "base") read_base(node);
+    if (kind != "none") return;
+    none_ = true;
     map.finish();
   }
   bool has_none() const { return none_; }
 
  private:
-  plant::CurvePlace place(YamlMap& map) const {
+  /// The map of a kind, whose `kind` was read.
+  static DescribedMap map_of(const YamlNode& node, const io::KeyList& keys) {
+    DescribedMap map(node, keys);
+    map.optional("kind");
+    return map;
+  }
+
+  plant::CurvePlace place(DescribedMap& map) const {
     plant::CurvePlace found = plant::read_place(map);
     check_(found);
     return found;
@@ -49,7 +146,8 @@ class DriveReader {
     return path;
   }
 
-  void read_base(const YamlNode& node, YamlMap& map) {
+  void read_base(const YamlNode& node) {
+    DescribedMap map = map_of(node, base_list());
     if (has_base_) node.error("a second base, expected one at most");
     has_base_ = true;
     const auto wrench = map.optional("wrench");
@@ -57,42 +155,44 @@ class DriveReader {
     // A base that carries a force plate may stand still.
     const auto path_node = wrench ? map.optional("path") : map.required("path");
     if (path_node) trial_.base = path(path_node);
+    map.finish();
   }
 
-  Hold read_hold(YamlMap& map) const {
+  Hold read_hold(const YamlNode& node) const {
+    DescribedMap map = map_of(node, hold_list());
     Hold hold;
     hold.place = place(map);
     hold.path = path(map.required("path"));
-    hold.release = map.number("release", io::positive, hold.release);
-    if (const auto stiffness = map.optional("stiffness"))
-      hold.stiffness = stiffness->number("stiffness", io::positive);
+    hold.release = map.optional_number("release").value_or(hold.release);
+    hold.stiffness = map.optional_number("stiffness");
     read_axes(map, hold);
-    hold.direction = map.boolean("direction", false);
+    hold.direction = map.boolean("direction");
     if (hold.direction && hold.path.rotation.empty() && !hold.path.time.empty())
       map.error("direction: true, and the path has no orientation, expected qx, qy, qz, qw in " +
                 hold.path.file.string());
+    map.finish();
     return hold;
   }
 
-  void read_axes(YamlMap& map, Hold& hold) const {
+  void read_axes(DescribedMap& map, Hold& hold) const {
     if (const auto node = map.optional("axes")) {
-      hold.axes = world_axes(*node);
+      hold.axes = world_axes(*node, map.key("axes").words);
       if (map.has("axis")) node->error("axes beside axis, expected one of the two");
     }
     if (const auto node = map.optional("axis"))
       if (const auto axis = unit_axis(*node)) hold.axes = {*axis};
-    hold.one_sided = map.boolean("one_sided", false);
+    hold.one_sided = map.boolean("one_sided");
     if (hold.one_sided && hold.axes.size() != 1)
       map.error("one_sided: true, and the hold leads along " +
                 std::string(hold.axes.empty() ? "all axes" : "several axes") +
                 ", expected axis, or axes with a single one");
   }
 
-  static std::vector<Vec3> world_axes(const YamlNode& node) {
+  static std::vector<Vec3> world_axes(const YamlNode& node, const std::vector<std::string>& words) {
     std::vector<Vec3> axes;
     bool there[3] = {};
     for (const YamlNode& one : node.list("axes")) {
-      const std::string name = one.choice("axes", {"x", "y", "z"});
+      const std::string name = one.choice("axes", words);
       const int axis = name[0] - 'x';
       if (there[axis]) one.error("axis " + name + " appears twice, expected it once");
       if (!there[axis]) axes.emplace_back(Vec3::Unit(axis));
@@ -110,13 +210,15 @@ class DriveReader {
     return std::nullopt;
   }
 
-  TimedLoad read_load(YamlMap& map) const {
+  TimedLoad read_load(const YamlNode& node) const {
+    DescribedMap map = map_of(node, load_list());
     TimedLoad load;
     load.place = place(map);
     load.force = map.vector("force");
-    load.from = map.number("from", io::any_number, load.from);
-    load.to = map.number("to", io::any_number, load.to);
+    load.from = map.optional_number("from").value_or(load.from);
+    load.to = map.optional_number("to").value_or(load.to);
     if (!(load.from < load.to)) map.error("the load ends before it begins, expected from < to");
+    map.finish();
     return load;
   }
 
@@ -128,6 +230,10 @@ class DriveReader {
 };
 
 }  // namespace
+
+std::vector<const io::KeyList*> drive_keys() {
+  return {&drive_list(), &hold_list(), &load_list(), &base_list()};
+}
 
 void read_drives(const YamlNode& list, const std::filesystem::path& folder, const CheckPlace& check,
                  Trial& trial) {

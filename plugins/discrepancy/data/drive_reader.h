@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/io/yaml.h"
+#include "pedicel/io/described_map.h"
 
 namespace pedicel::discrepancy {
 
@@ -14,6 +14,9 @@ using CheckPlace = std::function<void(const plant::CurvePlace&)>;
 /// node's diagnostics.
 void read_drives(const io::YamlNode& list, const std::filesystem::path& folder,
                  const CheckPlace& check, Trial& trial);
+
+/// The keys of a drive, and of each kind of it beside those.
+std::vector<const io::KeyList*> drive_keys();
 
 /// That a static series says nothing of time, and that all its tables have a row for each of
 /// markers.csv; a path may have a single one. `node` is the trial's.

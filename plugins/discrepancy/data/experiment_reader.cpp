@@ -3,21 +3,152 @@
 #include <set>
 
 #include "pedicel/discrepancy/data/drive_reader.h"
+#include "pedicel/discrepancy/data/experiment_keys.h"
 #include "pedicel/discrepancy/data/experiment_progress.h"
 #include "pedicel/discrepancy/data/experiment_tables.h"
 #include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/yaml.h"
 #include "pedicel/plant/effect_reader.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
 
-using io::YamlMap;
+using io::DescribedMap;
+using io::KeyType;
+using io::Told;
 using io::YamlNode;
 
 constexpr double usual_window = 0.2;  // s
 constexpr int least_in_window = 3;    // rows
+
+const io::KeyList& experiment_list() {
+  static const io::KeyList keys{
+      "experiment",
+      "an experiment",
+      {{.name = "format",
+        .type = KeyType::word,
+        .words = {"pedicel-experiment"},
+        .sentence = "says what the file is"},
+       {.name = "version",
+        .type = KeyType::whole,
+        .bounds = {1, 1},
+        .sentence = "version of the format"},
+       {.name = "title",
+        .type = KeyType::text,
+        .otherwise = Told{"empty"},
+        .sentence = "heads the report"},
+       {.name = "plant",
+        .type = KeyType::path,
+        .sentence = "the nominal [plant file](plant_file.md)"},
+       {.name = "markers",
+        .type = KeyType::list,
+        .form = "one or more",
+        .sentence = "measured points of the plant"},
+       {.name = "noise",
+        .type = KeyType::map,
+        .otherwise = Told{"from the data"},
+        .sentence = "known noise of the sensors"},
+       {.name = "effects",
+        .type = KeyType::list,
+        .otherwise = Told{"none"},
+        .sentence = "known [effects of every trial](effects.md#effects-of-an-experiment)"},
+       {.name = "trials",
+        .type = KeyType::list,
+        .form = "one or more",
+        .sentence = "what was done and measured"}}};
+  return keys;
+}
+
+const io::KeyList& marker_list() {
+  static const io::KeyList keys{
+      "marker",
+      "a marker",
+      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the marker"}},
+      "",
+      {&plant::place_keys()}};
+  return keys;
+}
+
+const io::KeyList& noise_list() {
+  const auto deviation = [](const char* name, const char* unit, const char* otherwise,
+                            const char* sentence) {
+    return io::Key{.name = name,
+                   .unit = unit,
+                   .otherwise = Told{otherwise},
+                   .bounds = io::positive,
+                   .sentence = sentence};
+  };
+  static const io::KeyList keys{
+      "noise",
+      "noise",
+      {deviation("position_std", "m", "estimated", "standard deviation of a marker's axis"),
+       deviation("force_std", "N", "estimated", "standard deviation of a force's axis"),
+       deviation("moment_std", "N m", "estimated", "standard deviation of a moment's axis"),
+       deviation("path_std", "m", "none",
+                 "standard deviation of an axis of the [paths themselves](#noise-of-paths)")}};
+  return keys;
+}
+
+const io::KeyList& trial_list() {
+  static const io::KeyList keys{
+      "trial",
+      "a trial",
+      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the trial"},
+       {.name = "folder", .type = KeyType::path, .sentence = "where its tables lie"},
+       {.name = "use",
+        .type = KeyType::word,
+        .otherwise = Told{"the program splits"},
+        .words = {"fit", "check"},
+        .sentence = "`check` holds the trial out of all fits"},
+       {.name = "clock",
+        .unit = "s",
+        .otherwise = Trial{}.clock,
+        .sentence = "when the trial began, since the first"},
+       {.name = "gravity",
+        .type = KeyType::vector,
+        .unit = "m/s2",
+        .otherwise = Trial{}.gravity,
+        .sentence = "gravity"},
+       {.name = "begins",
+        .type = KeyType::word,
+        .otherwise = "at_rest",
+        .words = {"at_rest", "moving"},
+        .sentence = "how the plant is at time 0"},
+       {.name = "window",
+        .unit = "s",
+        .otherwise = usual_window,
+        .bounds = io::positive,
+        .form = "where it begins `moving`",
+        .sentence = "first samples that say how it "
+                    "[begins in motion](#a-record-that-begins-in-motion)"},
+       {.name = "static",
+        .type = KeyType::flag,
+        .otherwise = Trial{}.is_static,
+        .sentence = "a [static series](#static-series) without time"},
+       {.name = "masses",
+        .type = KeyType::list,
+        .otherwise = Told{"none"},
+        .sentence = "known masses that hang on the plant in this trial"},
+       {.name = "effects",
+        .type = KeyType::list,
+        .otherwise = Told{"none"},
+        .sentence = "known effects of this trial"},
+       {.name = "drive",
+        .type = KeyType::list,
+        .form = "one or more",
+        .sentence = "what is known to have been done"}}};
+  return keys;
+}
+
+const io::KeyList& mass_list() {
+  static const io::KeyList keys{
+      "mass",
+      "a mass",
+      {{.name = "mass", .unit = "kg", .bounds = io::positive, .sentence = "of one of them"}},
+      "masses",
+      {&plant::place_keys()}};
+  return keys;
+}
 
 class Reader {
  public:
@@ -26,9 +157,9 @@ class Reader {
 
   Experiment read(const std::filesystem::path& folder) {
     experiment_.folder = folder;
-    YamlMap map(node_, "an experiment");
-    if (!node_.is_map() || !io::check_format(map, "pedicel-experiment", 1)) return {};
-    experiment_.title = map.text("title", "");
+    DescribedMap map(node_, experiment_list());
+    if (!node_.is_map() || !map.has_format()) return {};
+    experiment_.title = map.text("title");
     read_plant(map);
     if (const auto markers = map.required("markers")) read_markers_list(*markers);
     if (const auto noise = map.optional("noise")) read_noise(*noise);
@@ -40,7 +171,7 @@ class Reader {
   bool was_stopped() const { return stopped_; }
 
  private:
-  void read_plant(YamlMap& map) {
+  void read_plant(DescribedMap& map) {
     const auto node = map.required("plant");
     if (!node) return;
     const std::string file = node->text("plant");
@@ -52,7 +183,7 @@ class Reader {
   }
 
   // Without a plant its own faults are enough.
-  plant::CurvePlace place(YamlMap& map) {
+  plant::CurvePlace place(DescribedMap& map) {
     plant::CurvePlace found = plant::read_place(map);
     check_curve(found);
     return found;
@@ -71,7 +202,7 @@ class Reader {
   void read_markers_list(const YamlNode& list) {
     std::set<std::string> names;
     for (const YamlNode& node : list.list("markers")) {
-      YamlMap map(node, "a marker");
+      DescribedMap map(node, marker_list());
       Marker marker;
       marker.name = map.text("name");
       if (!marker.name.empty() && !names.insert(marker.name).second)
@@ -85,19 +216,15 @@ class Reader {
   }
 
   void read_noise(const YamlNode& node) {
-    YamlMap map(node, "noise");
-    if (const auto std = map.optional("position_std"))
-      experiment_.noise.position_std = std->number("position_std", io::positive);
-    if (const auto std = map.optional("force_std"))
-      experiment_.noise.force_std = std->number("force_std", io::positive);
-    if (const auto std = map.optional("moment_std"))
-      experiment_.noise.moment_std = std->number("moment_std", io::positive);
-    if (const auto std = map.optional("path_std"))
-      experiment_.noise.path_std = std->number("path_std", io::positive);
+    DescribedMap map(node, noise_list());
+    experiment_.noise.position_std = map.optional_number("position_std");
+    experiment_.noise.force_std = map.optional_number("force_std");
+    experiment_.noise.moment_std = map.optional_number("moment_std");
+    experiment_.noise.path_std = map.optional_number("path_std");
     map.finish();
   }
 
-  std::vector<plant::Effect> read_effects(YamlMap& map) {
+  std::vector<plant::Effect> read_effects(DescribedMap& map) {
     std::vector<plant::Effect> effects;
     for (const YamlNode& node : map.list("effects")) {
       plant::Effect effect = plant::read_effect(node, effects::EffectFile::experiment);
@@ -138,16 +265,15 @@ class Reader {
   }
 
   Trial read_trial(const YamlNode& node) {
-    YamlMap map(node, "a trial");
+    DescribedMap map(node, trial_list());
     Trial trial;
     trial.name = map.text("name");
     const auto folder = map.required("folder");
     if (folder) trial.folder = folder->text("folder");
     if (map.has("use"))
-      trial.use =
-          map.choice("use", {"fit", "check"}, "fit") == "fit" ? Trial::Use::fit : Trial::Use::check;
-    trial.clock = map.number("clock", io::any_number, 0.0);
-    trial.gravity = map.vector("gravity", trial.gravity);
+      trial.use = map.choice("use") == "fit" ? Trial::Use::fit : Trial::Use::check;
+    trial.clock = map.number("clock");
+    trial.gravity = map.vector("gravity");
     for (const YamlNode& item : map.list("masses")) trial.masses.push_back(read_mass(item));
     trial.effects = read_effects(map);
     read_beginning(map, trial);
@@ -171,11 +297,11 @@ class Reader {
   }
 
   // How the plant is at time 0, and whether there is a time at all.
-  static void read_beginning(YamlMap& map, Trial& trial) {
-    trial.is_static = map.boolean("static", false);
-    const bool moves = map.choice("begins", {"at_rest", "moving"}, "at_rest") == "moving";
+  static void read_beginning(DescribedMap& map, Trial& trial) {
+    trial.is_static = map.boolean("static");
+    const bool moves = map.choice("begins") == "moving";
     const auto window = map.optional("window");
-    if (moves) trial.window = window ? window->number("window", io::positive) : usual_window;
+    if (moves) trial.window = map.number("window");
     if (window && !moves)
       window->error("a window where the trial begins at rest, expected begins: moving beside it");
     if (moves && trial.is_static)
@@ -217,10 +343,10 @@ class Reader {
   }
 
   plant::PlantMass read_mass(const YamlNode& node) {
-    YamlMap map(node, "a mass");
+    DescribedMap map(node, mass_list());
     plant::PlantMass mass;
     mass.place = place(map);
-    mass.mass = map.number("mass", io::positive);
+    mass.mass = map.number("mass");
     map.finish();
     return mass;
   }
@@ -248,6 +374,13 @@ class Reader {
 };
 
 }  // namespace
+
+std::vector<const io::KeyList*> experiment_keys() {
+  std::vector<const io::KeyList*> all = {&experiment_list(), &marker_list(), &plant::place_keys(),
+                                         &noise_list(),      &trial_list(),  &mass_list()};
+  for (const io::KeyList* one : drive_keys()) all.push_back(one);
+  return all;
+}
 
 bool records_detachments(const Experiment& experiment) {
   return std::ranges::any_of(experiment.trials, [](const Trial& trial) {

@@ -5,8 +5,10 @@
 #include "pedicel/discrepancy/scene/camera.h"
 #include "pedicel/discrepancy/scene/run_effects.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
+#include "pedicel/discrepancy/scene/scene_experiment_keys.h"
 #include "pedicel/discrepancy/scene/scene_tables.h"
-#include "pedicel/io/yaml.h"
+#include "pedicel/io/csv.h"
+#include "pedicel/io/described_map.h"
 #include "pedicel/plant/effect_reader.h"
 #include "pedicel/robot/kinematics.h"
 #include "pedicel/urdf/urdf_reader.h"
@@ -16,7 +18,9 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-using io::YamlMap;
+using io::DescribedMap;
+using io::KeyType;
+using io::Told;
 using io::YamlNode;
 
 /// Rows of all tables of a trial, so that no folder fills the memory.
@@ -38,6 +42,252 @@ std::string names_of(const Items& items) {
   return names.empty() ? "none" : names;
 }
 
+const io::KeyList& experiment_list() {
+  const Told none{"none"};
+  static const io::KeyList keys{
+      "experiment",
+      "an experiment",
+      {{.name = "format",
+        .type = KeyType::word,
+        .words = {"pedicel-experiment"},
+        .sentence = "says what the file is"},
+       {.name = "version",
+        .type = KeyType::whole,
+        .bounds = {1, 1},
+        .sentence = "version of the format"},
+       {.name = "title",
+        .type = KeyType::text,
+        .otherwise = none,
+        .sentence = "what it is, for people"},
+       {.name = "scene",
+        .type = KeyType::path,
+        .sentence = "the nominal scene, in place of `plant`"},
+       {.name = "markers",
+        .type = KeyType::list,
+        .otherwise = none,
+        .form = "at most " + std::to_string(most_markers),
+        .sentence = "measured points of plants and of the robot"},
+       {.name = "cameras",
+        .type = KeyType::list,
+        .otherwise = none,
+        .form = "at most " + std::to_string(most_cameras),
+        .sentence = "pinholes that saw the markers"},
+       {.name = "wrenches",
+        .type = KeyType::list,
+        .otherwise = none,
+        .form = "at most " + std::to_string(most_wrenches),
+        .sentence = "sensors of force and moment in the arm"},
+       {.name = "noise",
+        .type = KeyType::map,
+        .otherwise = Told{"from the data"},
+        .sentence = "known noise of the instruments"},
+       {.name = "effects",
+        .type = KeyType::list,
+        .otherwise = none,
+        .sentence = "known effects of every trial, of scenes and of plants"},
+       {.name = "trials",
+        .type = KeyType::list,
+        .form = "one or more, at most " + std::to_string(most_trials),
+        .sentence = "what was done and measured"}}};
+  return keys;
+}
+
+io::Key plant_key() {
+  return {.name = "plant",
+          .type = KeyType::text,
+          .otherwise = Told{"the only one"},
+          .form = "a plant of the scene",
+          .sentence = "where it sits"};
+}
+
+const io::KeyList& marker_list() {
+  static const io::KeyList keys{
+      "marker",
+      "a marker",
+      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the marker"},
+       plant_key(),
+       {.name = "fruit",
+        .type = KeyType::text,
+        .otherwise = Told{"on a stem"},
+        .form = "a fruit of the plant",
+        .sentence = "in a fruit's centre, in place of `curve` and `at`"},
+       {.name = "link",
+        .type = KeyType::text,
+        .otherwise = Told{"on a plant"},
+        .form = "a link of the robot",
+        .sentence = "on the robot, in place of a plant"},
+       {.name = "offset",
+        .type = KeyType::vector,
+        .unit = "m",
+        .otherwise = SceneMarker{}.offset_L,
+        .sentence = "in the link's frame"}},
+      "",
+      {&plant::place_keys()}};
+  return keys;
+}
+
+const io::KeyList& camera_list() {
+  static const io::KeyList keys{
+      "camera",
+      "a camera",
+      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "names its tables"},
+       {.name = "position", .type = KeyType::vector, .unit = "m", .sentence = "where it is"},
+       {.name = "orientation",
+        .type = KeyType::rotation,
+        .otherwise = io::Needed{},
+        .sentence = "turns its frame into the world's: x right, y down, z forward"},
+       {.name = "focal",
+        .type = KeyType::numbers,
+        .unit = "px",
+        .bounds = {1.0e-3, 1.0e7},
+        .form = "two",
+        .sentence = "focal lengths"},
+       {.name = "centre",
+        .type = KeyType::numbers,
+        .unit = "px",
+        .otherwise = Told{"the middle"},
+        .form = "two",
+        .sentence = "principal point"},
+       {.name = "size",
+        .type = KeyType::numbers,
+        .unit = "px",
+        .otherwise = Told{"`[" + std::to_string(Camera{}.size[0]) + ", " +
+                          std::to_string(Camera{}.size[1]) + "]`"},
+        .bounds = {1.0, 1.0e5},
+        .form = "two",
+        .sentence = "width and height"},
+       {.name = "distortion",
+        .type = KeyType::numbers,
+        .unit = "1",
+        .otherwise = Told{"none"},
+        .bounds = {-1.0e3, 1.0e3},
+        .form = "five",
+        .sentence = "Brown's k1 k2 p1 p2 k3"},
+       {.name = "eye",
+        .type = KeyType::vector,
+        .unit = "m",
+        .otherwise = Told{"none"},
+        .sentence = "where it is, in place of `position`, `orientation` and `focal`"},
+       {.name = "target",
+        .type = KeyType::vector,
+        .unit = "m",
+        .otherwise = Told{"needed beside `eye`"},
+        .form = "apart from `eye`",
+        .sentence = "where it looks"},
+       {.name = "fov",
+        .unit = "rad",
+        .otherwise = Told{"needed beside `eye`"},
+        .bounds = {1.0e-3, 3.1},
+        .sentence = "vertical field of view"}}};
+  return keys;
+}
+
+const io::KeyList& wrench_list() {
+  static const io::KeyList keys{
+      "wrench",
+      "a wrench",
+      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "names its tables"},
+       {.name = "link",
+        .type = KeyType::text,
+        .form = "a link of the robot",
+        .sentence = "whose wrench it is"},
+       {.name = "tared",
+        .type = KeyType::flag,
+        .otherwise = WrenchSensor{}.tared,
+        .sentence = "less its mean over the first " + io::format_number(tare_time) + " s"}}};
+  return keys;
+}
+
+const io::KeyList& noise_list() {
+  const auto deviation = [](const char* name, const char* unit, const char* sentence) {
+    return io::Key{.name = name,
+                   .unit = unit,
+                   .otherwise = Told{"estimated"},
+                   .bounds = io::positive,
+                   .sentence = sentence};
+  };
+  static const io::KeyList keys{"noise",
+                                "noise",
+                                {deviation("position_std", "m", "of a marker's axis"),
+                                 deviation("pixel_std", "px", "of an image point's axis"),
+                                 deviation("force_std", "N", "of a wrench's force"),
+                                 deviation("moment_std", "N m", "of a wrench's moment"),
+                                 deviation("joint_std", "rad or m", "of an encoder"),
+                                 deviation("torque_std", "N m or N", "of a motor's torque")}};
+  return keys;
+}
+
+const io::KeyList& trial_list() {
+  static const io::KeyList keys{
+      "trial",
+      "a trial",
+      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the trial"},
+       {.name = "folder", .type = KeyType::path, .sentence = "where its tables lie"},
+       {.name = "use",
+        .type = KeyType::word,
+        .otherwise = Told{"the program splits"},
+        .words = {"fit", "check"},
+        .sentence = "`check` holds the trial out of all fits"},
+       {.name = "clock",
+        .unit = "s",
+        .otherwise = SceneTrial{}.clock,
+        .sentence = "when the trial began, since the first"},
+       {.name = "masses",
+        .type = KeyType::list,
+        .otherwise = Told{"none"},
+        .sentence = "known masses that hang on plants in this trial"},
+       {.name = "effects",
+        .type = KeyType::list,
+        .otherwise = Told{"none"},
+        .sentence = "known effects of this trial"},
+       {.name = "robot", .type = KeyType::map, .sentence = "what drives the arm"},
+       {.name = "plants",
+        .type = KeyType::map,
+        .otherwise = Told{"as the scene says"},
+        .form = "names of plants with places",
+        .sentence = "places of plants that stood elsewhere"}}};
+  return keys;
+}
+
+const io::KeyList& follows_list() {
+  static const io::KeyList keys{
+      "follows",
+      "robot",
+      {{.name = "follows",
+        .type = KeyType::word,
+        .words = {"joints", "commands"},
+        .sentence = "encoders that are believed, or a controller that is told"}},
+      "robot"};
+  return keys;
+}
+
+const io::KeyList& mass_list() {
+  static const io::KeyList keys{
+      "mass",
+      "a mass",
+      {{.name = "mass", .unit = "kg", .bounds = io::positive, .sentence = "of one of them"},
+       plant_key()},
+      "masses",
+      {&plant::place_keys()}};
+  return keys;
+}
+
+const io::KeyList& moved_list() {
+  static const io::KeyList keys{"moved",
+                                "a plant's place",
+                                {{.name = "position",
+                                  .type = KeyType::vector,
+                                  .unit = "m",
+                                  .otherwise = Told{"the scene's"},
+                                  .sentence = "of one of them"},
+                                 {.name = "orientation",
+                                  .type = KeyType::rotation,
+                                  .otherwise = Told{"the scene's"},
+                                  .sentence = "of one of them"}},
+                                "plants"};
+  return keys;
+}
+
 class SceneReader {
  public:
   SceneReader(const YamlNode& node, const std::filesystem::path& instead)
@@ -45,9 +295,9 @@ class SceneReader {
 
   SceneExperiment read(const std::filesystem::path& folder) {
     out_.folder = folder;
-    YamlMap map(node_, "an experiment");
-    if (!node_.is_map() || !io::check_format(map, "pedicel-experiment", 1)) return {};
-    out_.title = map.text("title", "");
+    DescribedMap map(node_, experiment_list());
+    if (!node_.is_map() || !map.has_format()) return {};
+    out_.title = map.text("title");
     read_scene(map);
     // Without a whole scene names cannot be looked up: its own faults are enough.
     if (!whole_) return {};
@@ -67,7 +317,7 @@ class SceneReader {
   }
 
  private:
-  void read_scene(YamlMap& map) {
+  void read_scene(DescribedMap& map) {
     const auto node = map.required("scene");
     if (!node) return;
     out_.scene_path = node->text("scene");
@@ -77,9 +327,8 @@ class SceneReader {
       file = instead_;
       out_.scene_path = instead_.filename();
     }
-    if (map.has("plant"))
-      map.optional("plant")->error(
-          "plant beside scene, expected one of them: a scene names its plants");
+    if (const auto plant = map.misplaced("plant"))
+      plant->error("plant beside scene, expected one of them: a scene names its plants");
     const int before = diagnostics_.error_count();
     auto scene = world::read_scene(file, diagnostics_);
     if (!scene) return;
@@ -140,7 +389,7 @@ class SceneReader {
   }
 
   template <class Item, class Read>
-  void read_each(YamlMap& map, const char* key, std::size_t most, std::vector<Item>& items,
+  void read_each(DescribedMap& map, const char* key, std::size_t most, std::vector<Item>& items,
                  const Read& read) {
     for (const YamlNode& node : map.list(key)) {
       if (items.size() == most)
@@ -155,12 +404,12 @@ class SceneReader {
   }
 
   SceneMarker read_marker(const YamlNode& node) {
-    YamlMap map(node, "a marker");
+    DescribedMap map(node, marker_list());
     SceneMarker marker;
     marker.name = map.text("name");
     if (const auto link = map.optional("link")) {
       marker.link = link_of(*link, "link");
-      marker.offset_L = map.vector("offset", Vec3::Zero());
+      marker.offset_L = map.vector("offset");
     } else {
       marker.plant = plant_of(map);
       if (const auto fruit = map.optional("fruit")) {
@@ -173,7 +422,7 @@ class SceneReader {
     return marker;
   }
 
-  int plant_of(YamlMap& map) {
+  int plant_of(DescribedMap& map) {
     const auto node = map.optional("plant");
     if (!node) {
       if (out_.plants.size() > 1) map.error("no plant, expected one of: " + names_of(out_.plants));
@@ -204,7 +453,7 @@ class SceneReader {
     return std::max(0, found);
   }
 
-  plant::CurvePlace place(YamlMap& map, int plant) {
+  plant::CurvePlace place(DescribedMap& map, int plant) {
     plant::CurvePlace found = plant::read_place(map);
     const plant::PlantFile& file = out_.plants[static_cast<std::size_t>(plant)].file;
     if (!found.curve.empty() && file.curve_index(found.curve) < 0)
@@ -215,12 +464,12 @@ class SceneReader {
   }
 
   Camera read_camera(const YamlNode& node) {
-    YamlMap map(node, "a camera");
+    DescribedMap map(node, camera_list());
     Camera camera;
     camera.name = map.text("name");
     const auto size = map.optional("size");
     if (size) {
-      const std::vector<double> both = size->numbers("size", {1.0, 1.0e5});
+      const std::vector<double> both = size->numbers("size", map.key("size").bounds);
       if (both.size() == 2)
         camera.size = {static_cast<int>(both[0]), static_cast<int>(both[1])};
       else
@@ -228,20 +477,22 @@ class SceneReader {
     }
     camera.centre = {0.5 * camera.size[0], 0.5 * camera.size[1]};
     if (map.has("eye")) {
-      const Vec3 eye = map.vector("eye"), target = map.vector("target");
+      const Vec3 eye = map.vector("eye");
+      const auto aim = map.required("target");
+      const Vec3 target = aim ? aim->vector("target") : Vec3(Vec3::Zero());
       if (!((target - eye).norm() > 0.0)) node.error("target: expected another place than eye");
       camera.X_WC = {eye, looking_at(eye, target)};
-      const double fov = map.number("fov", {1.0e-3, 3.1});
+      const double fov = map.required_number("fov");
       camera.focal.setConstant(0.5 * camera.size[1] / std::tan(0.5 * fov));
     } else {
       camera.X_WC.position = map.vector("position");
       if (const auto turn = map.required("orientation"))
         camera.X_WC.rotation = turn->quaternion("orientation");
-      camera.focal = pair(map, "focal", true, camera.focal);
+      camera.focal = pair(map, "focal", camera.focal);
     }
-    camera.centre = pair(map, "centre", false, camera.centre);
+    camera.centre = pair(map, "centre", camera.centre);
     if (const auto lens = map.optional("distortion")) {
-      const std::vector<double> all = lens->numbers("distortion", {-1.0e3, 1.0e3});
+      const std::vector<double> all = lens->numbers("distortion", map.key("distortion").bounds);
       if (all.size() == 5)
         std::ranges::copy(all, camera.distortion.begin());
       else
@@ -251,40 +502,38 @@ class SceneReader {
     return camera;
   }
 
-  static Eigen::Vector2d pair(YamlMap& map, const char* key, bool required,
+  static Eigen::Vector2d pair(DescribedMap& map, const char* key,
                               const Eigen::Vector2d& otherwise) {
-    const auto node = required ? map.required(key) : map.optional(key);
+    const auto node = map.asked(key);
     if (!node) return otherwise;
-    const std::vector<double> both =
-        node->numbers(key, required ? io::Bounds{1.0e-3, 1.0e7} : io::any_number);
+    const std::vector<double> both = node->numbers(key, map.key(key).bounds);
     if (both.size() == 2) return {both[0], both[1]};
     node->error(std::string(key) + ": expected two numbers, px");
     return otherwise;
   }
 
   WrenchSensor read_wrench_sensor(const YamlNode& node) {
-    YamlMap map(node, "a wrench");
+    DescribedMap map(node, wrench_list());
     WrenchSensor sensor;
     sensor.name = map.text("name");
     if (const auto link = map.required("link")) sensor.link = link_of(*link, "link");
-    sensor.tared = map.boolean("tared", false);
+    sensor.tared = map.boolean("tared");
     map.finish();
     return sensor;
   }
 
   void read_noise(const YamlNode& node) {
-    YamlMap map(node, "noise");
+    DescribedMap map(node, noise_list());
     SceneNoise& noise = out_.noise;
     const std::pair<const char*, std::optional<double>*> all[] = {
         {"position_std", &noise.position_std}, {"pixel_std", &noise.pixel_std},
         {"force_std", &noise.force_std},       {"moment_std", &noise.moment_std},
         {"joint_std", &noise.joint_std},       {"torque_std", &noise.torque_std}};
-    for (const auto& [key, value] : all)
-      if (const auto std = map.optional(key)) *value = std->number(key, io::positive);
+    for (const auto& [key, value] : all) *value = map.optional_number(key);
     map.finish();
   }
 
-  std::vector<plant::Effect> read_effects(YamlMap& map) {
+  std::vector<plant::Effect> read_effects(DescribedMap& map) {
     std::vector<plant::Effect> effects;
     for (const YamlNode& node : map.list("effects"))
       effects.push_back(read_scene_effect(node, out_));
@@ -305,21 +554,18 @@ class SceneReader {
   }
 
   SceneTrial read_trial(const YamlNode& node) {
-    YamlMap map(node, "a trial");
+    DescribedMap map(node, trial_list());
     SceneTrial trial;
     trial.name = map.text("name");
     const auto folder = map.required("folder");
     if (folder) trial.folder = folder->text("folder");
     if (map.has("use"))
-      trial.use =
-          map.choice("use", {"fit", "check"}, "fit") == "fit" ? Trial::Use::fit : Trial::Use::check;
-    trial.clock = map.number("clock", io::any_number, 0.0);
+      trial.use = map.choice("use") == "fit" ? Trial::Use::fit : Trial::Use::check;
+    trial.clock = map.number("clock");
     for (const YamlNode& item : map.list("masses")) trial.masses.push_back(read_mass(item));
     if (const auto robot = map.required("robot")) {
-      YamlMap follows(*robot, "robot");
-      if (follows.required("follows"))
-        trial.follows_commands =
-            follows.choice("follows", {"joints", "commands"}, "joints") == "commands";
+      DescribedMap follows(*robot, follows_list());
+      trial.follows_commands = follows.choice("follows") == "commands";
       follows.finish();
     }
     if (const auto plants = map.optional("plants")) read_poses(*plants, trial);
@@ -335,24 +581,25 @@ class SceneReader {
   }
 
   SceneTrial::Mass read_mass(const YamlNode& node) {
-    YamlMap map(node, "a mass");
+    DescribedMap map(node, mass_list());
     SceneTrial::Mass mass;
     mass.plant = plant_of(map);
     mass.mass.place = place(map, mass.plant);
-    mass.mass.mass = map.number("mass", io::positive);
+    mass.mass.mass = map.number("mass");
     map.finish();
     return mass;
   }
 
   void read_poses(const YamlNode& node, SceneTrial& trial) {
-    YamlMap map(node, "plants");
+    io::YamlMap map(node, "plants");  // its keys are names of plants
     for (std::size_t p = 0; p < out_.plants.size(); ++p) {
       const auto entry = map.optional(out_.plants[p].name);
       if (!entry) continue;
-      YamlMap pose(*entry, "a plant's place");
+      DescribedMap pose(*entry, moved_list());
       Pose moved = out_.plants[p].pose;
-      moved.position = pose.vector("position", moved.position);
-      moved.rotation = pose.quaternion("orientation", moved.rotation);
+      if (const auto place = pose.optional("position")) moved.position = place->vector("position");
+      if (const auto turn = pose.optional("orientation"))
+        moved.rotation = turn->quaternion("orientation");
       pose.finish();
       trial.poses[static_cast<int>(p)] = moved;
     }
@@ -504,6 +751,11 @@ bool is_scene_experiment(const std::filesystem::path& path) {
   } catch (const std::exception&) {
     return false;
   }
+}
+
+std::vector<const io::KeyList*> scene_experiment_keys() {
+  return {&experiment_list(), &marker_list(), &plant::place_keys(), &camera_list(), &wrench_list(),
+          &noise_list(),      &trial_list(),  &follows_list(),      &mass_list(),   &moved_list()};
 }
 
 std::optional<SceneExperiment> read_scene_experiment(const std::filesystem::path& path,

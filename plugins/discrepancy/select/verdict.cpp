@@ -4,10 +4,11 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "pedicel/core/exit_code.h"
+#include "pedicel/discrepancy/select/verdict_keys.h"
 #include "pedicel/effects/registry/effect_definition.h"
+#include "pedicel/io/described_object.h"
 
 namespace pedicel::discrepancy {
 
@@ -15,7 +16,265 @@ namespace {
 
 // Ordered, so that keys stand in the file as the page of the manual lists them, and two verdicts
 // can be compared line by line.
-using Json = nlohmann::ordered_json;
+using Json = io::DescribedObject::Json;
+using io::DescribedObject;
+using io::KeyType;
+using io::Told;
+
+std::vector<std::string> outcome_words() {
+  std::vector<std::string> words;
+  for (int o = 0; o <= static_cast<int>(Outcome::numerical); ++o)
+    words.push_back(to_string(static_cast<Outcome>(o)));
+  return words;
+}
+
+const io::KeyList& verdict_list() {
+  const auto list = [](const char* name, const char* sentence) {
+    return io::Key{.name = name, .type = KeyType::list, .sentence = sentence};
+  };
+  const auto part = [](const char* name, KeyType type, const char* absent, const char* sentence) {
+    return io::Key{.name = name, .type = type, .otherwise = Told{absent}, .sentence = sentence};
+  };
+  static const io::KeyList keys{
+      "verdict",
+      "a verdict",
+      {{.name = "format",
+        .type = KeyType::word,
+        .words = {"pedicel-verdict"},
+        .sentence = "says what the file is"},
+       {.name = "version",
+        .type = KeyType::whole,
+        .bounds = {1, 1},
+        .sentence = "version of the format"},
+       {.name = "verdict",
+        .type = KeyType::word,
+        .words = outcome_words(),
+        .sentence = "what was found, see below"},
+       list("causes",
+            "the causes that are named, what explains most first; under `ambiguous` all that the "
+            "data cannot tell apart, likeliest first"),
+       list("details", "what is real beside them and too small to matter: the same keys"),
+       list("nearest",
+            "under `unknown`, the causes that came closest; `against` says what speaks "
+            "against each"),
+       part("symptoms", KeyType::list, "where nothing was simulated",
+            "what the data show beside the refitted model, see below"),
+       list("rivals", "other causes"),
+       {.name = "parameters",
+        .type = KeyType::map,
+        .sentence = "refitted numbers of the plant, by name"},
+       {.name = "ratios",
+        .type = KeyType::map,
+        .sentence = "ratios of such numbers to the file's, where these data see a ratio far more "
+                    "closely than either number: `youngs_modulus/density`, with the keys of a "
+                    "number"},
+       {.name = "error",
+        .type = KeyType::map,
+        .sentence = "misfit in units of the noise, see below"},
+       {.name = "gain",
+        .unit = "1",
+        .sentence = "(refitted - extended) / (refitted - 1) on the trials held out; `null` where "
+                    "the denominator is within the noise"},
+       {.name = "gain_over_nominal",
+        .unit = "1",
+        .sentence = "(nominal - extended) / (nominal - 1), likewise"},
+       {.name = "remainder",
+        .type = KeyType::text,
+        .sentence = "what is still unexplained, in words, or empty"},
+       list("could_hide",
+            "effects that these data could not show, see below; empty under "
+            "`unknown`, whose remainder is larger than any of them"),
+       {.name = "next_experiment", .type = KeyType::text, .sentence = "one sentence, or empty"},
+       {.name = "extended_plant",
+        .type = KeyType::path,
+        .form = "or `null`",
+        .sentence = "file of the plant with its named causes"},
+       {.name = "next",
+        .type = KeyType::path,
+        .form = "or `null`",
+        .sentence = "experiment.yaml of the trial that decides, see below"},
+       {.name = "simulations", .type = KeyType::whole, .sentence = "trials that were simulated"},
+       {.name = "seconds", .unit = "s", .sentence = "wall time"},
+       part("unknown", KeyType::map, "where nothing acts from outside",
+            "under `unknown`, what acts from outside on a plant of a scene, see below"),
+       part("extended_scene", KeyType::path, "where the model is no scene",
+            "file of the [scene](scene_experiment.md#diagnosis) with its named causes"),
+       part("partial", KeyType::flag, "where the search was whole", "the search was cut short")}};
+  return keys;
+}
+
+const io::KeyList& cause_list() {
+  static const io::KeyList keys{
+      "cause",
+      "a cause",
+      {{.name = "name",
+        .type = KeyType::text,
+        .form = "an [effect](effects.md)",
+        .sentence = "what it is"},
+       {.name = "parameters", .type = KeyType::map, .sentence = "its numbers by name"},
+       {.name = "where",
+        .type = KeyType::map,
+        .form = "or `null`",
+        .sentence = "`curve` and `at`, or which `plant`, `fruit`, `link`, `joint`, `camera`, "
+                    "`wrench` or `marker`"},
+       {.name = "because",
+        .type = KeyType::text,
+        .sentence = "in plain words: the clearest symptom that speaks for the cause, and what is "
+                    "left with it"},
+       {.name = "evidence",
+        .unit = "1",
+        .sentence = "nats, see [theory](theory_diagnosis.md#evidence)"},
+       {.name = "share",
+        .type = KeyType::map,
+        .sentence = "part of the misfit that the cause takes away, see below"},
+       {.name = "change",
+        .type = KeyType::map,
+        .sentence = "RMS of what it changes, over all trials"},
+       {.name = "against",
+        .type = KeyType::text,
+        .otherwise = Told{"but in `nearest`"},
+        .sentence = "what speaks against it"}}};
+  return keys;
+}
+
+const io::KeyList& share_list() {
+  static const io::KeyList keys{
+      "share",
+      "a share",
+      {{.name = "fit", .unit = "1", .sentence = "in the trials that were fitted"},
+       {.name = "check", .unit = "1", .sentence = "in the trials held out"}},
+      "share"};
+  return keys;
+}
+
+const io::KeyList& change_list() {
+  const auto one = [](const char* name, const char* sentence) {
+    return io::Key{.name = name,
+                   .type = KeyType::map,
+                   .otherwise = Told{"where none was measured"},
+                   .form = "`value` and `unit`",
+                   .sentence = sentence};
+  };
+  static const io::KeyList keys{
+      "change",
+      "a change",
+      {one("marker", "of the markers, m"), one("force", "of the force, N"),
+       one("moment", "of the moment at the root, N m"), one("pixel", "of the image points, px")},
+      "change"};
+  return keys;
+}
+
+const io::KeyList& number_list() {
+  static const io::KeyList keys{
+      "number",
+      "a number",
+      {{.name = "value", .unit = "its `unit`", .sentence = "the most likely value"},
+       {.name = "low", .unit = "its `unit`", .sentence = "lower end of its 95 % interval"},
+       {.name = "high", .unit = "its `unit`", .sentence = "upper end of it"},
+       {.name = "unit", .type = KeyType::text, .sentence = "its unit"}}};
+  return keys;
+}
+
+const io::KeyList& size_list() {
+  static const io::KeyList keys{"size",
+                                "a size",
+                                {{.name = "value", .unit = "its `unit`", .sentence = "the size"},
+                                 {.name = "unit", .type = KeyType::text, .sentence = "its unit"}}};
+  return keys;
+}
+
+const io::KeyList& outside_list() {
+  static const io::KeyList keys{
+      "outside",
+      "what acts from outside",
+      {{.name = "position",
+        .type = KeyType::vector,
+        .unit = "m",
+        .sentence = "in the world: the place on the plant when it begins"},
+       {.name = "plant", .type = KeyType::text, .sentence = "name of that plant"},
+       {.name = "curve", .type = KeyType::text, .sentence = "name of that curve"},
+       {.name = "at", .unit = "1", .sentence = "that place on it"},
+       {.name = "from", .unit = "s", .sentence = "when it begins to act"},
+       {.name = "to", .unit = "s", .sentence = "when it ends"},
+       {.name = "direction",
+        .type = KeyType::vector,
+        .unit = "1",
+        .form = "a unit vector",
+        .sentence = "in the world: where it pulls"}}};
+  return keys;
+}
+
+const io::KeyList& symptom_list() {
+  static const io::KeyList keys{
+      "symptom",
+      "a symptom",
+      {{.name = "name", .type = KeyType::text, .sentence = "kind of symptom"},
+       {.name = "of",
+        .type = KeyType::text,
+        .sentence = "the trial, marker or curve that it is about; empty: all of them"},
+       {.name = "value", .unit = "its `unit`", .sentence = "the number"},
+       {.name = "error", .unit = "its `unit`", .sentence = "its standard error"},
+       {.name = "unit", .type = KeyType::text, .sentence = "unit of both"},
+       {.name = "shows",
+        .type = KeyType::flag,
+        .sentence = "whether it is beyond chance: 5 standard errors, and a size that matters"},
+       {.name = "speaks_for",
+        .type = KeyType::list,
+        .sentence = "[effects](effects.md) that would make it, the likeliest first"},
+       {.name = "sentence", .type = KeyType::text, .sentence = "in words"}}};
+  return keys;
+}
+
+const io::KeyList& rival_list() {
+  static const io::KeyList keys{
+      "rival",
+      "a rival",
+      {{.name = "name", .type = KeyType::text, .sentence = "name of the other cause"},
+       {.name = "behind",
+        .unit = "1",
+        .sentence = "nats by which it explains the data less well"}}};
+  return keys;
+}
+
+const io::KeyList& misfits_list() {
+  static const io::KeyList keys{
+      "misfits",
+      "the error",
+      {{.name = "fit",
+        .type = KeyType::map,
+        .sentence = "of the trials that were fitted: `nominal`, `refitted` and `extended`"},
+       {.name = "check", .type = KeyType::map, .sentence = "the same of the trials held out"},
+       {.name = "unit",
+        .type = KeyType::word,
+        .words = {"rms residual over the noise floor"},
+        .sentence = "unit of all of them"}}};
+  return keys;
+}
+
+const io::KeyList& misfit_list() {
+  static const io::KeyList keys{
+      "misfit",
+      "an error",
+      {{.name = "nominal", .unit = "1", .sentence = "the model as given"},
+       {.name = "refitted",
+        .unit = "1",
+        .sentence = "the same model with modulus, density and damping refitted"},
+       {.name = "extended", .unit = "1", .sentence = "the model with the named causes"}}};
+  return keys;
+}
+
+const io::KeyList& hidden_list() {
+  static const io::KeyList keys{
+      "hidden",
+      "what could hide",
+      {{.name = "name", .type = KeyType::text, .sentence = "name of an effect"},
+       {.name = "parameter", .type = KeyType::text, .sentence = "its number"},
+       {.name = "smallest_seen",
+        .unit = "its `unit`",
+        .sentence = "detectable limit: the smallest size that these data would show"},
+       {.name = "unit", .type = KeyType::text, .sentence = "unit of that size"}}};
+  return keys;
+}
 
 Json number(double value) {
   // JSON has neither infinity nor NaN. An open end of an interval is null, and so is what was not
@@ -27,10 +286,12 @@ Json number(const std::optional<double>& value) {
 }
 
 Json to_json(const Estimate& estimate) {
-  return {{"value", number(estimate.value)},
-          {"low", number(estimate.low)},
-          {"high", number(estimate.high)},
-          {"unit", estimate.unit}};
+  return DescribedObject(number_list())
+      .set("value", number(estimate.value))
+      .set("low", number(estimate.low))
+      .set("high", number(estimate.high))
+      .set("unit", estimate.unit)
+      .json();
 }
 
 // A vector's components stand in lists.
@@ -44,53 +305,72 @@ Json to_json(const std::vector<Estimate>& estimates) {
     low.push_back(number(estimate.low));
     high.push_back(number(estimate.high));
   }
-  return {{"value", value}, {"low", low}, {"high", high}, {"unit", estimates.front().unit}};
+  return DescribedObject(number_list())
+      .set("value", value)
+      .set("low", low)
+      .set("high", high)
+      .set("unit", estimates.front().unit)
+      .json();
 }
 
 // Every size carries its unit, because changes of markers, forces and pixels stand side by side.
 Json sized(double value, const std::string& unit) {
-  return {{"value", number(value)}, {"unit", unit}};
+  return DescribedObject(size_list()).set("value", number(value)).set("unit", unit).json();
+}
+
+// Only what was measured. A change of 0 N would say that a force was looked at.
+Json to_json(const Change& change) {
+  DescribedObject json(change_list());
+  if (change.marker) json.set("marker", sized(*change.marker, "m"));
+  if (change.force) json.set("force", sized(*change.force, "N"));
+  if (change.moment) json.set("moment", sized(*change.moment, "N m"));
+  if (change.pixel) json.set("pixel", sized(*change.pixel, "px"));
+  return json.json();
+}
+
+// The key is always there, also without a place: a reader can tell "everywhere" from "forgotten".
+Json where_json(const NamedCause& cause) {
+  Json where = nullptr;
+  if (cause.where) where = {{"curve", cause.where->curve}, {"at", cause.where->at}};
+  // Words that say where are part of `where`, whatever kind of thing they name.
+  for (const char* key : {"plant", "fruit", "link", "joint", "camera", "wrench", "marker"})
+    if (const auto word = cause.words.find(key); word != cause.words.end())
+      where[key] = word->second;
+  return where;
 }
 
 Json to_json(const NamedCause& cause) {
   // An object even where it is empty: null would say that nobody looked.
   Json parameters = Json::object();
   for (const auto& [name, estimates] : cause.parameters) parameters[name] = to_json(estimates);
-  Json json = {{"name", cause.name}, {"parameters", parameters}};
-  // The key is always there, also without a place: a reader can tell "everywhere" from "forgotten".
-  json["where"] = nullptr;
-  if (cause.where) json["where"] = {{"curve", cause.where->curve}, {"at", cause.where->at}};
-  // Words that say where are part of `where`, whatever kind of thing they name.
-  for (const char* key : {"plant", "fruit", "link", "joint", "camera", "wrench", "marker"})
-    if (const auto word = cause.words.find(key); word != cause.words.end())
-      json["where"][key] = word->second;
+  DescribedObject json(cause_list());
+  json.set("name", cause.name).set("parameters", parameters).set("where", where_json(cause));
   // All words once more beside it, since some say no place: in which trial a grip slipped, from
-  // which shape a relaxation counts.
-  for (const auto& [key, word] : cause.words) json[key] = word;
-  json["because"] = cause.because;
-  json["evidence"] = number(cause.evidence);
-  json["share"] = {{"fit", number(cause.share.fit)}, {"check", number(cause.share.check)}};
-  // Only what was measured. A change of 0 N would say that a force was looked at.
-  json["change"] = Json::object();
-  if (cause.change.marker) json["change"]["marker"] = sized(*cause.change.marker, "m");
-  if (cause.change.force) json["change"]["force"] = sized(*cause.change.force, "N");
-  if (cause.change.moment) json["change"]["moment"] = sized(*cause.change.moment, "N m");
-  if (cause.change.pixel) json["change"]["pixel"] = sized(*cause.change.pixel, "px");
-  if (!cause.against.empty()) json["against"] = cause.against;
-  return json;
+  // which shape a relaxation counts. Their keys are parameters of effects, described there.
+  for (const auto& [key, word] : cause.words) json.set_other(key, word);
+  json.set("because", cause.because).set("evidence", number(cause.evidence));
+  json.set("share", DescribedObject(share_list())
+                        .set("fit", number(cause.share.fit))
+                        .set("check", number(cause.share.check))
+                        .json());
+  json.set("change", to_json(cause.change));
+  if (!cause.against.empty()) json.set("against", cause.against);
+  return json.json();
 }
 
 Json to_json(const std::vector<SymptomNumber>& symptoms) {
   Json list = Json::array();
   for (const SymptomNumber& one : symptoms)
-    list.push_back({{"name", one.name},
-                    {"of", one.of},
-                    {"value", number(one.value)},
-                    {"error", number(one.error)},
-                    {"unit", one.unit},
-                    {"shows", one.shows},
-                    {"speaks_for", one.speaks_for},
-                    {"sentence", one.sentence}});
+    list.push_back(DescribedObject(symptom_list())
+                       .set("name", one.name)
+                       .set("of", one.of)
+                       .set("value", number(one.value))
+                       .set("error", number(one.error))
+                       .set("unit", one.unit)
+                       .set("shows", one.shows)
+                       .set("speaks_for", one.speaks_for)
+                       .set("sentence", one.sentence)
+                       .json());
   return list;
 }
 
@@ -107,16 +387,23 @@ Json to_json(const Vec3& vector) {
 // The place stands twice, in the world and on a curve: the one is for a hand, the other for a
 // model.
 Json to_json(const OutsideAction& action) {
-  return {{"position", to_json(action.position)},  {"plant", action.plant},
-          {"curve", action.place.curve},           {"at", number(action.place.at)},
-          {"from", number(action.from)},           {"to", number(action.to)},
-          {"direction", to_json(action.direction)}};
+  return DescribedObject(outside_list())
+      .set("position", to_json(action.position))
+      .set("plant", action.plant)
+      .set("curve", action.place.curve)
+      .set("at", number(action.place.at))
+      .set("from", number(action.from))
+      .set("to", number(action.to))
+      .set("direction", to_json(action.direction))
+      .json();
 }
 
 Json to_json(const Errors& errors) {
-  return {{"nominal", number(errors.nominal)},
-          {"refitted", number(errors.refitted)},
-          {"extended", number(errors.extended)}};
+  return DescribedObject(misfit_list())
+      .set("nominal", number(errors.nominal))
+      .set("refitted", number(errors.refitted))
+      .set("extended", number(errors.extended))
+      .json();
 }
 
 std::string short_number(double value) {
@@ -152,53 +439,68 @@ int exit_code(Outcome outcome) {
   return outcome == Outcome::adequate ? exit_ok : exit_cause_named - 1 + static_cast<int>(outcome);
 }
 
+std::vector<const io::KeyList*> verdict_keys() {
+  return {&verdict_list(), &cause_list(),   &share_list(),   &change_list(),
+          &number_list(),  &size_list(),    &outside_list(), &symptom_list(),
+          &rival_list(),   &misfits_list(), &misfit_list(),  &hidden_list()};
+}
+
 std::string to_json(const Verdict& verdict) {
   Json competing = Json::array(), hide = Json::array();
   for (const CompetingModel& model : verdict.competing)
-    competing.push_back({{"name", model.name}, {"behind", number(model.behind)}});
+    competing.push_back(DescribedObject(rival_list())
+                            .set("name", model.name)
+                            .set("behind", number(model.behind))
+                            .json());
   for (const DetectableLimit& effect : verdict.detectable_limits)
-    hide.push_back({{"name", effect.name},
-                    {"parameter", effect.parameter},
-                    {"smallest_seen", number(effect.smallest)},
-                    {"unit", effect.unit}});
+    hide.push_back(DescribedObject(hidden_list())
+                       .set("name", effect.name)
+                       .set("parameter", effect.parameter)
+                       .set("smallest_seen", number(effect.smallest))
+                       .set("unit", effect.unit)
+                       .json());
   Json parameters = Json::object();
   for (const auto& [name, estimate] : verdict.parameters) parameters[name] = to_json(estimate);
   Json ratios = Json::object();
   for (const auto& [name, estimate] : verdict.ratios) ratios[name] = to_json(estimate);
-  Json json = {{"format", "pedicel-verdict"},
-               {"version", 1},
-               {"verdict", to_string(verdict.outcome)},
-               {"causes", to_json(verdict.causes)},
-               {"details", to_json(verdict.details)},
-               {"nearest", to_json(verdict.nearest)},
-               // `rivals` is the format's word for the competing models of the code.
-               {"rivals", competing},
-               {"parameters", parameters},
-               {"ratios", ratios},
-               {"error",
-                {{"fit", to_json(verdict.fit)},
-                 {"check", to_json(verdict.check)},
-                 // 1 is noise alone, and that is the best that any model can do.
-                 {"unit", "rms residual over the noise floor"}}},
-               {"gain", number(verdict.gain)},
-               {"gain_over_nominal", number(verdict.gain_over_nominal)},
-               {"remainder", verdict.remainder},
-               {"could_hide", hide},
-               {"next_experiment", verdict.next_experiment},
-               {"extended_plant",
-                verdict.extended_plant.empty() ? Json(nullptr) : Json(verdict.extended_plant)},
-               {"next", verdict.next.empty() ? Json(nullptr) : Json(verdict.next)},
-               {"simulations", verdict.simulations},
-               {"seconds", number(verdict.seconds)}};
+  // 1 is noise alone, and that is the best that any model can do.
+  const Json error = DescribedObject(misfits_list())
+                         .set("fit", to_json(verdict.fit))
+                         .set("check", to_json(verdict.check))
+                         .set("unit", misfits_list().find("unit")->words.front())
+                         .json();
+  const auto or_null = [](const std::string& file) {
+    return file.empty() ? Json(nullptr) : Json(file);
+  };
+  DescribedObject json(verdict_list());
+  json.set("format", verdict_list().find("format")->words.front())
+      .set("version", 1)
+      .set("verdict", to_string(verdict.outcome))
+      .set("causes", to_json(verdict.causes))
+      .set("details", to_json(verdict.details))
+      .set("nearest", to_json(verdict.nearest))
+      .set("rivals", competing)  // the format's word for the competing models of the code
+      .set("parameters", parameters)
+      .set("ratios", ratios)
+      .set("error", error)
+      .set("gain", number(verdict.gain))
+      .set("gain_over_nominal", number(verdict.gain_over_nominal))
+      .set("remainder", verdict.remainder)
+      .set("could_hide", hide)
+      .set("next_experiment", verdict.next_experiment)
+      .set("extended_plant", or_null(verdict.extended_plant))
+      .set("next", or_null(verdict.next))
+      .set("simulations", verdict.simulations)
+      .set("seconds", number(verdict.seconds));
   // Absent where they do not apply: the manual says so of these keys, in place of null.
-  if (verdict.unknown) json["unknown"] = to_json(*verdict.unknown);
+  if (verdict.unknown) json.set("unknown", to_json(*verdict.unknown));
   // Only a scene has one.
-  if (!verdict.extended_scene.empty()) json["extended_scene"] = verdict.extended_scene;
-  if (!verdict.symptoms.empty()) json["symptoms"] = to_json(verdict.symptoms);
+  if (!verdict.extended_scene.empty()) json.set("extended_scene", verdict.extended_scene);
+  if (!verdict.symptoms.empty()) json.set("symptoms", to_json(verdict.symptoms));
   // Said only where it is so, since a reader that does not know the key must not take a whole
   // verdict for a part.
-  if (verdict.partial) json["partial"] = true;
-  return json.dump(2);
+  if (verdict.partial) json.set("partial", true);
+  return json.json().dump(2);
 }
 
 std::string said_name(const NamedCause& cause) {

@@ -4,7 +4,9 @@
 
 #include "arm_at_stem.h"
 #include "pedicel/discrepancy/scene/scene_data.h"
+#include "pedicel/discrepancy/scene/scene_experiment_keys.h"
 #include "pedicel/discrepancy/scene/scene_observe.h"
+#include "support/described_keys.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -78,6 +80,27 @@ TEST_F(SceneExperimentFiles, FaultsAreToldWithTheirPlace) {
                          "effects: [{name: wrench_gain, gain: 1.1, wrench: ankle}]\n"
                          "trials:\n"),
               HasSubstr("wrench \"ankle\" is unknown, expected one of: wrist"));
+}
+
+TEST_F(SceneExperimentFiles, EveryKeyThatIsDescribedIsRead) {
+  at_.write_all();
+  const KeyPlaces places = {{"experiment", {"%"}},
+                            {"marker", {"markers: [{%}]", "markers: [{link: finger, %}]"}},
+                            {"place", {"markers: [{%}]"}},
+                            {"camera", {"cameras: [{%}]", "cameras: [{eye: [0, 0, 0], %}]"}},
+                            {"wrench", {"wrenches: [{%}]"}},
+                            {"noise", {"noise: {%}"}},
+                            {"trial", {"trials: [{%}]"}},
+                            {"follows", {"trials: [{robot: {%}}]"}},
+                            {"mass", {"trials: [{masses: [{%}]}]"}},
+                            {"moved", {"trials: [{plants: {bush: {%}}}]"}}};
+  expect_every_key_is_read(scene_experiment_keys(), places,
+                           [&](const std::string&, const std::string& text) {
+                             at_.write("experiment.yaml", at_.head + text);
+                             Diagnostics diagnostics;
+                             read_scene_experiment(at_.path(), diagnostics);
+                             return diagnostics.text();
+                           });
 }
 
 TEST_F(SceneExperimentFiles, FaultsOfTablesAreToldWithTheirPlace) {
