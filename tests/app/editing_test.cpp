@@ -282,8 +282,8 @@ TEST_F(Editing, AStringEndsAtAPostButNotAtWhatMoves) {
   desk_.drag({foot, ImVec2(0.5f * (foot.x + ball.x), foot.y), ball});
   EXPECT_EQ(scene().ties.size(), 1u);
   EXPECT_NE(desk_.ui().notice.find("ball moves"), std::string::npos) << desk_.ui().notice;
-  // To another stem it is one between the two. It begins where the last one did, soon after it: that
-  // is no double click, which would move the view from under the string.
+  // To another stem it is one between the two. It begins where the last one did, soon after it:
+  // that is no double click, which would move the view from under the string.
   const ImVec2 twig = desk_.at(Vec3(0.12, 0.075, 0.352));
   desk_.drag({foot, ImVec2(0.5f * (foot.x + twig.x), 0.5f * (foot.y + twig.y)), twig});
   desk_.settle();
