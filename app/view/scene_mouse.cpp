@@ -119,8 +119,10 @@ void SceneMouse::update(Ui& ui, ViewCamera& camera, const SceneFrame& frame,
     ui.hover = pick(*ui.snapshot, shapes, frame.ray(io.MousePos), frame.angle(slack_px));
     for (const int button : {0, 1, 2})
       if (ImGui::IsMouseClicked(button)) press(ui, frame, button, tool_has_left);
-    // Both habits: the left double click selects and centres, the right one centres.
-    if (ImGui::IsMouseDoubleClicked(0) || ImGui::IsMouseDoubleClicked(1)) {
+    // Both habits: the left double click selects and centres, the right one centres. What a tool
+    // has begun on would move away from under the pointer: its second press is no double click.
+    const bool left_is_ours = !tool_has_left || io.KeyAlt;
+    if ((left_is_ours && ImGui::IsMouseDoubleClicked(0)) || ImGui::IsMouseDoubleClicked(1)) {
       if (ui.hover) camera.look_at(ui.hover.place_W), ui.view.camera = -1;
     }
   }

@@ -282,9 +282,21 @@ TEST_F(Editing, AStringEndsAtAPostButNotAtWhatMoves) {
   desk_.drag({foot, ImVec2(0.5f * (foot.x + ball.x), foot.y), ball});
   EXPECT_EQ(scene().ties.size(), 1u);
   EXPECT_NE(desk_.ui().notice.find("ball moves"), std::string::npos) << desk_.ui().notice;
+  // To another stem it is one between the two. It begins where the last one did, soon after it:
+  // that is no double click, which would move the view from under the string.
+  const ImVec2 twig = desk_.at(Vec3(0.12, 0.075, 0.352));
+  desk_.drag({foot, ImVec2(0.5f * (foot.x + twig.x), 0.5f * (foot.y + twig.y)), twig});
+  desk_.settle();
+  ASSERT_EQ(scene().ties.size(), 2u) << desk_.ui().notice;
+  EXPECT_EQ(scene().ties[1].to_organ, "p/branch");
+  EXPECT_GT(scene().ties[1].to_at.value_or(0.0), 0.4);
+  const ImVec2 still = desk_.at(Vec3(0.12, 0.075, 0.352));
+  EXPECT_EQ(still.x, twig.x);
+  EXPECT_EQ(still.y, twig.y);
+  expect_one_step();
   // From nothing no string begins.
   desk_.drag({ImVec2(foot.x + 60, foot.y - 60), post});
-  EXPECT_EQ(scene().ties.size(), 1u);
+  EXPECT_EQ(scene().ties.size(), 2u);
 }
 
 TEST_F(Editing, TheWheelMakesAStrokeThicker) {

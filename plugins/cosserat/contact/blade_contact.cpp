@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 namespace pedicel::cosserat {
 
@@ -12,12 +12,13 @@ constexpr double skin = 0.006;  // m, of the displacement bound of the list of c
 // m. Nearer to a blade than this an axis is in it: it has gone through, or is about to.
 constexpr double in_blade = 1.0e-5;
 constexpr double least_share = 1.0e-6;  // 1, of a corner
+// m/m. Beyond a fold of a leaf lies a wedge that is under neither face. What is through stays under
+// both faces of a fold of up to 53 degrees, 2 atan(this).
+constexpr double fold = 0.5;
 
 Vec3 place_of(const RodState& state, int element, double back) {
   return state.position[element] - back * (state.orientation[element] * Vec3::UnitZ());
 }
-
-using Corners = std::array<Vec3, 3>;
 
 Corners corners_of(const RodState& state, const BladeTriangle& face) {
   Corners corners;
@@ -28,11 +29,6 @@ Corners corners_of(const RodState& state, const BladeTriangle& face) {
 Vec3 place_on(const Corners& corners, const Vec3& shares) {
   return shares[0] * corners[0] + shares[1] * corners[1] + shares[2] * corners[2];
 }
-
-struct Axis {
-  Vec3 near, along;  // m, W
-  Vec3 at(double fraction) const { return near + fraction * along; }
-};
 
 Axis axis_of(const RodState& state, const CollisionShape& shape) {
   const Vec3 near = place_of(state, shape.element, shape.back_near);
@@ -45,83 +41,11 @@ Vec3 motion_of(const RodState& start, const RodState& now, int element, const Ve
   return now.position[element] + arm_W - start.position[element] - start.orientation[element] * arm;
 }
 
-// The quadratic program of nearest_to_triangle() in (s, u, v), the fraction along the axis and the
-// shares of the first two corners. It is strictly convex: of the minima on all of its faces that
-// lie in them, the least is the minimum.
-class Program {
- public:
-  Program(const Vec3& start, const Vec3& along, const Corners& corners) {
-    const Vec3 u = corners[0] - corners[2], v = corners[1] - corners[2];
-    const Vec3 apart = start - corners[2];
-    Mat3 slopes;
-    slopes << along, -u, -v;
-    const double size2 =
-        std::max({along.squaredNorm(), u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
-    const double e = 1.0e-4 * size2;
-    hessian_ = slopes.transpose() * slopes;
-    hessian_(0, 0) += e;
-    hessian_(1, 1) += 2.0 * e, hessian_(2, 2) += 2.0 * e;
-    hessian_(1, 2) += e, hessian_(2, 1) += e;
-    slope_ = slopes.transpose() * apart - e * Vec3(0.5, 1.0, 1.0);
-  }
-
-  NearestToTriangle solve() {
-    const Vec3 s = Vec3::UnitX(), u = Vec3::UnitY(), v = Vec3::UnitZ();
-    if (!(hessian_.trace() > 0.0)) return {};  // all in one place
-    // Inside of both there is no lesser value.
-    if (try_face<3>(Vec3::Zero(), {s, u, v})) return best();
-    for (const double end : {0.0, 1.0}) try_face<2>(end * s, {u, v});
-    for (const auto& [from, to] :
-         {std::pair(u, v), std::pair(v, Vec3(Vec3::Zero())), std::pair(Vec3(Vec3::Zero()), u)}) {
-      try_face<2>(from, {s, to - from});
-      try_face<1>(from, {s});
-      for (const double end : {0.0, 1.0}) {
-        try_face<1>(from + end * s, {to - from});
-        consider(from + end * s);
-      }
-    }
-    return best();
-  }
-
- private:
-  double value(const Vec3& x) const { return 0.5 * x.dot(hessian_ * x) + slope_.dot(x); }
-  void consider(const Vec3& x) {
-    const double here = value(x);
-    if (here < least_) least_ = here, at_ = x;
-  }
-  static bool is_inside(const Vec3& x) {
-    constexpr double rounding = 1.0e-12;
-    return x.minCoeff() >= -rounding && x[0] <= 1.0 + rounding && x[1] + x[2] <= 1.0 + rounding;
-  }
-  // The minimum on from + span(ways), where that is inside.
-  template <int n>
-  bool try_face(const Vec3& from, const std::array<Vec3, n>& ways) {
-    Eigen::Matrix<double, 3, n> basis;
-    for (int i = 0; i < n; ++i) basis.col(i) = ways[static_cast<std::size_t>(i)];
-    const Eigen::Matrix<double, n, n> reduced = basis.transpose() * hessian_ * basis;
-    const Eigen::Matrix<double, n, 1> steps =
-        -reduced.inverse() * (basis.transpose() * (hessian_ * from + slope_));
-    const Vec3 x = from + basis * steps;
-    if (!is_inside(x)) return false;
-    consider(x);
-    return true;
-  }
-  NearestToTriangle best() const {
-    Vec3 shares(std::max(0.0, at_[1]), std::max(0.0, at_[2]), std::max(0.0, 1.0 - at_[1] - at_[2]));
-    return {std::clamp(at_[0], 0.0, 1.0), shares / shares.sum()};
-  }
-
-  Mat3 hessian_;
-  Vec3 slope_, at_ = Vec3(0.5, 1.0 / 3.0, 1.0 / 3.0);
-  double least_ = std::numeric_limits<double>::infinity();
-};
+bool is_same(const BladePlace& a, const BladePlace& b) {
+  return a.element == b.element && a.back == b.back;
+}
 
 }  // namespace
-
-NearestToTriangle nearest_to_triangle(const Vec3& start, const Vec3& along,
-                                      const std::array<Vec3, 3>& corners) {
-  return Program(start, along, corners).solve();
-}
 
 BladeContact::BladeContact(const RodModel& joined, std::vector<Plant> plants)
     : plants_(std::move(plants)), shapes_(plants_.size()) {
@@ -142,7 +66,7 @@ BladeContact::BladeContact(const RodModel& joined, std::vector<Plant> plants)
     const Corners corners = corners_of(drawn, faces_[pair.face].corners);
     const CollisionShape& shape = joined.shapes[pair.shape];
     const Axis axis = axis_of(drawn, shape);
-    const NearestToTriangle at = nearest_to_triangle(axis.near, axis.along, corners);
+    const NearestToTriangle at = nearest_to_triangle(axis, corners);
     const double radius = shape.radius_near + at.along * (shape.radius_far - shape.radius_near);
     const PlantBlades& blades = *plants_[faces_[pair.face].plant].blades;
     const double gap = (axis.at(at.along) - place_on(corners, at.shares)).norm() - radius -
@@ -151,8 +75,10 @@ BladeContact::BladeContact(const RodModel& joined, std::vector<Plant> plants)
   }
   left_out_ = std::move(left_out);
   candidates_.clear();
+  sides_.clear();
   reference_.clear();
   start_ = nullptr;
+  forget();
 }
 
 void BladeContact::add_faces(const RodModel& joined, int plant) {
@@ -165,13 +91,130 @@ void BladeContact::add_faces(const RodModel& joined, int plant) {
     if (own != organ) leaves_.push_back({plant, number, number});
     organ = own;
     leaves_.back().last = number + 1;
-    faces_.push_back({plant, corners});
+    Face face;
+    face.plant = plant;
+    face.corners = corners;
+    face.leaf = static_cast<int>(leaves_.size()) - 1;
+    faces_.push_back(face);
+  }
+  for (const Leaf& leaf : leaves_)
+    if (leaf.plant == plant) join_faces(leaf);
+}
+
+void BladeContact::join_faces(const Leaf& leaf) {
+  // 1: they go along an edge the same way, -1: against each other, 0: it is not the same edge.
+  const auto along = [&](const Face& f, std::size_t i, const Face& g, std::size_t j) {
+    const BladePlace &a = f.corners[i], &b = f.corners[(i + 1) % 3];
+    const BladePlace &c = g.corners[j], &d = g.corners[(j + 1) % 3];
+    if (is_same(a, c) && is_same(b, d)) return 1;
+    return is_same(a, d) && is_same(b, c) ? -1 : 0;
+  };
+  for (int f = leaf.first; f < leaf.last; ++f) faces_[f].patch = -1;
+  std::vector<int> open;
+  for (int first = leaf.first; first < leaf.last; ++first) {
+    if (faces_[first].patch >= 0) continue;
+    faces_[first].patch = first;
+    open.push_back(first);
+    while (!open.empty()) {
+      const int number = open.back();
+      Face& f = faces_[number];
+      open.pop_back();
+      for (int other = leaf.first; other < leaf.last; ++other)
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t j = 0; j < 3; ++j) {
+            Face& g = faces_[other];
+            const int way = other == number ? 0 : along(f, i, g, j);
+            if (way == 0) continue;
+            f.inner[static_cast<int>(i)] = 1.0;
+            if (g.patch >= 0) continue;
+            g.patch = first;
+            // Where corners go round alike, neighbours go along their edge against each other.
+            g.turn = -way * f.turn;
+            open.push_back(other);
+          }
+    }
   }
 }
 
-void BladeContact::begin_step(const RodModel&, const RodState& start, double) {
+void BladeContact::forget() {
+  std::ranges::fill(sides_, Side{});
+  any_through_ = false;
+  before_.position.clear();
+}
+
+void BladeContact::begin_step(const RodModel& model, const RodState& start, double) {
+  remember(model, start);
+  before_.position = start.position;
+  before_.orientation = start.orientation;
   start_ = &start;
   start_is_covered_ = false;
+}
+
+// A side is taken from one start of a step to the next, and not from an iterate: so what a step
+// tried does not count, nor how often it was tried.
+void BladeContact::remember(const RodModel& model, const RodState& start) {
+  if (before_.size() != start.size()) return;
+  old_sides_.resize(candidates_.size());
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    old_sides_[i] = standing(model, before_, start, i).side;
+  sides_.swap(old_sides_);
+  any_through_ = std::ranges::any_of(sides_, &Side::is_through);
+}
+
+bool BladeContact::is_whole(const RodModel& model, const RodState& state,
+                            const Candidate& pair) const {
+  const CollisionShape& shape = model.shapes[pair.shape];
+  return state.alive[shape.element] && (shape.fruit < 0 || !state.fruit_gone[shape.fruit]) &&
+         std::ranges::all_of(faces_[pair.face].corners, [&](const BladePlace& corner) {
+           return state.alive[corner.element] != 0;
+         });
+}
+
+// The side of a shape that is through another face of the same patch; 0: it is not.
+int BladeContact::side_in_patch(const Candidate& pair) const {
+  if (!any_through_) return 0;
+  const Face& face = faces_[pair.face];
+  const Leaf& leaf = leaves_[face.leaf];
+  for (int f = leaf.first; f < leaf.last; ++f) {
+    if (f == pair.face || faces_[f].patch != face.patch) continue;
+    const auto other = std::ranges::lower_bound(candidates_, Candidate{f, pair.shape});
+    if (other == candidates_.end() || *other != Candidate{f, pair.shape}) continue;
+    const Side& side = sides_[static_cast<std::size_t>(other - candidates_.begin())];
+    if (side.is_through) return side.sign * faces_[f].turn * face.turn;
+  }
+  return 0;
+}
+
+// After both moved from one state to another.
+BladeContact::Standing BladeContact::standing(const RodModel& model, const RodState& from,
+                                              const RodState& state, std::size_t candidate) const {
+  const Candidate& pair = candidates_[candidate];
+  Standing standing;
+  if (!is_whole(model, state, pair)) return standing;
+  const Face& face = faces_[pair.face];
+  const CollisionShape& shape = model.shapes[pair.shape];
+  const Corners now = corners_of(state, face.corners);
+  const std::optional<Vec3> normal = normal_of(now);
+  if (!normal) return standing;
+  standing.normal_W = *normal;
+  const Axis axis = axis_of(state, shape);
+  const auto depth_of = [](const PartOver& part, int sign) {
+    return std::max(-sign * part.height[0], -sign * part.height[1]);
+  };
+  int sign = sides_[candidate].sign;
+  std::optional<PartOver> part = part_over(axis, now, *normal);
+  if (!part && sign != 0) {
+    part = part_over(axis, now, *normal, fold * face.inner, sign);
+    if (part && !(depth_of(*part, sign) > 0.0)) part.reset();
+  }
+  if (!part) return standing;
+  if (sign == 0) sign = side_in_patch(pair);
+  if (sign == 0)
+    sign = side_after(axis_of(from, shape), corners_of(from, face.corners), axis, now, *part);
+  if (sign == 0) return standing;
+  standing.depth = depth_of(*part, sign);
+  standing.side = {sign, standing.depth >= -in_blade};
+  return standing;
 }
 
 // Whether the candidates hold for a state: no place of an element moves farther than the farther of
@@ -220,6 +263,8 @@ BladeContact::Box BladeContact::way_of(const RodModel& model, const RodState& st
 }
 
 void BladeContact::rebuild(const RodModel& model, const RodState& state) {
+  old_candidates_.swap(candidates_);
+  old_sides_.swap(sides_);
   candidates_.clear();
   shape_ways_.assign(model.shapes.size(), {});
   plant_ways_.assign(plants_.size(), {});
@@ -231,13 +276,29 @@ void BladeContact::rebuild(const RodModel& model, const RodState& state) {
   for (const Leaf& leaf : leaves_)
     for (int p = 0; p < static_cast<int>(plants_.size()); ++p)
       if (p != leaf.plant) meet(state, leaf, p);
-  std::ranges::sort(candidates_);
-  std::erase_if(candidates_,
-                [&](const Candidate& pair) { return std::ranges::binary_search(left_out_, pair); });
+  keep_sides();
   reference_.resize(state.position.size());
   for (int e = 0; e < state.size(); ++e)
     reference_[e] = {place_of(state, e, model.elements[e].length), state.position[e]};
   start_is_covered_ = true;
+}
+
+// What is through stays a candidate, however deep it is.
+void BladeContact::keep_sides() {
+  for (std::size_t i = 0; i < old_sides_.size(); ++i)
+    if (old_sides_[i].is_through) candidates_.push_back(old_candidates_[i]);
+  std::ranges::sort(candidates_);
+  const auto twice = std::ranges::unique(candidates_);
+  candidates_.erase(twice.begin(), twice.end());
+  std::erase_if(candidates_,
+                [&](const Candidate& pair) { return std::ranges::binary_search(left_out_, pair); });
+  sides_.assign(candidates_.size(), {});
+  std::size_t old = 0;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    while (old < old_candidates_.size() && old_candidates_[old] < candidates_[i]) ++old;
+    if (old < old_candidates_.size() && old_candidates_[old] == candidates_[i])
+      sides_[i] = old_sides_[old];
+  }
 }
 
 void BladeContact::meet(const RodState& state, const Leaf& leaf, int plant) {
@@ -258,19 +319,46 @@ void BladeContact::find(const RodModel& model, const RodState& state, double dt,
   if (!start_) begin_step(model, state, dt);
   if (!start_is_covered_) start_is_covered_ = is_covered(model, *start_);
   if (!start_is_covered_ || !is_covered(model, state)) rebuild(model, state);
-  const auto is_whole = [&](const Candidate& pair) {
-    const CollisionShape& shape = model.shapes[pair.shape];
-    return state.alive[shape.element] && (shape.fruit < 0 || !state.fruit_gone[shape.fruit]) &&
-           std::ranges::all_of(faces_[pair.face].corners, [&](const BladePlace& corner) {
-             return state.alive[corner.element] != 0;
-           });
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    if (is_whole(model, state, candidates_[i])) touch(model, state, dt, i, found);
+}
+
+// Where they touch, in which direction and how far apart their middles are; false: they do not.
+bool BladeContact::place(const Axis& was, const Corners& were, const Axis& axis, const Corners& now,
+                         double moved, const Candidate& pair, const Standing& standing,
+                         Touch& touch) const {
+  const auto between = [](const Axis& a, const Corners& b, const NearestToTriangle& at) {
+    return Vec3(a.at(at.along) - place_on(b, at.shares));
   };
-  for (const Candidate& pair : candidates_)
-    if (is_whole(pair)) touch(model, state, dt, pair, found);
+  // Moved back to its own side by more than it is beyond, what is nearest there goes back first.
+  const auto go_back = [&](const Vec3& back) {
+    touch.at = nearest_to_triangle({axis.near + back, axis.along}, now);
+    const Vec3 way = between(axis, now, touch.at);
+    touch.normal_W = (way + back).normalized();
+    touch.gap = way.dot(touch.normal_W);
+    return true;
+  };
+  const double beyond = std::max(moved, standing.depth) + in_blade;
+  if (standing.side.is_through) return go_back(beyond * standing.side.sign * standing.normal_W);
+
+  touch.at = nearest_to_triangle(axis, now);
+  const Vec3 way = between(axis, now, touch.at);
+  touch.gap = way.norm();
+  touch.normal_W = way / touch.gap;
+  const bool is_apart = touch.gap > in_blade;
+  if (standing.side.sign != 0) return is_apart;
+  // Beside a face, but through another one of the leaf: from there it goes back.
+  if (const int sign = side_in_patch(pair); sign != 0)
+    return is_apart && sign * way.dot(standing.normal_W) > 0.0;
+  if (is_apart && way.dot(between(was, were, touch.at)) > 0.0) return true;
+  // Across the rim since the step's start: towards where it was.
+  const Vec3 side = between(was, were, nearest_to_triangle(was, were));
+  return side.norm() > in_blade && go_back(beyond * side.normalized());
 }
 
 void BladeContact::touch(const RodModel& model, const RodState& state, double dt,
-                         const Candidate& pair, std::vector<ContactPoint>& found) const {
+                         std::size_t candidate, std::vector<ContactPoint>& found) const {
+  const Candidate& pair = candidates_[candidate];
   const Face& face = faces_[pair.face];
   const CollisionShape& shape = model.shapes[pair.shape];
   const PlantBlades& blades = *plants_[face.plant].blades;
@@ -288,33 +376,16 @@ void BladeContact::touch(const RodModel& model, const RodState& state, double dt
   const Vec3 across = (now[1] - now[0]).cross(now[2] - now[0]);
   const double area = across.norm(), near_end = across.dot(axis.near - now[0]),
                far_end = across.dot(axis.at(1.0) - now[0]);
-  if (std::min(near_end, far_end) > reach * area || std::max(near_end, far_end) < -reach * area)
+  if (!sides_[candidate].is_through &&
+      (std::min(near_end, far_end) > reach * area || std::max(near_end, far_end) < -reach * area))
     return;
 
   Touch touch;
-  touch.at = nearest_to_triangle(axis.near, axis.along, now);
-  const auto between = [](const Axis& a, const Corners& b, const NearestToTriangle& at) {
-    return Vec3(a.at(at.along) - place_on(b, at.shares));
-  };
-  Vec3 way = between(axis, now, touch.at);
-  double distance = way.norm();
-  if (distance > in_blade && way.dot(between(was, were, touch.at)) > 0.0) {
-    touch.normal_W = way / distance;
-  } else {
-    // It is in the blade, or beyond. Moved back, by more than both can have moved, towards where it
-    // was, it is on its own side, and what is nearest there is what goes back first.
-    const NearestToTriangle before = nearest_to_triangle(was.near, was.along, were);
-    const Vec3 side = between(was, were, before);
-    if (!(side.norm() > in_blade)) return;
-    const Vec3 back = (moved + in_blade) * side.normalized();
-    touch.at = nearest_to_triangle(axis.near + back, axis.along, now);
-    way = between(axis, now, touch.at);
-    touch.normal_W = (way + back).normalized();
-    distance = way.dot(touch.normal_W);
-  }
+  if (!place(was, were, axis, now, moved, pair, standing(model, *start_, state, candidate), touch))
+    return;
   touch.radius = shape.radius_near + touch.at.along * (shape.radius_far - shape.radius_near);
   touch.back = shape.back_near + touch.at.along * (shape.back_far - shape.back_near);
-  touch.gap = distance - touch.radius - blades.half_thickness();
+  touch.gap -= touch.radius + blades.half_thickness();
   const Vec3 arm =
       axis.at(touch.at.along) - touch.radius * touch.normal_W - state.position[shape.element];
   const Vec3 motion = motion_of(*start_, state, shape.element, arm);

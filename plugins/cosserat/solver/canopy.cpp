@@ -52,6 +52,21 @@ std::unique_ptr<BladeContact> blade_contact_of(const JoinedModel& joined,
   return std::make_unique<BladeContact>(joined.model(), std::move(all));
 }
 
+// Whether a plant is not where the last step left it: its state was set from outside.
+bool any_was_moved(const JoinedModel& joined, std::span<const Canopy::PlantStep> plants,
+                   const RodState& left) {
+  for (std::size_t p = 0; p < plants.size(); ++p) {
+    const RodState& state = *plants[p].state;
+    const int first = joined.parts()[p].first_element;
+    if (left.size() < first + state.size()) return true;
+    for (int e = 0; e < state.size(); ++e)
+      if (state.position[e] != left.position[first + e] ||
+          state.orientation[e].coeffs() != left.orientation[first + e].coeffs())
+        return true;
+  }
+  return false;
+}
+
 // Their joints' memory starts where the plant stands, as DirectSolver has it.
 void begin_memory(const RodModel& model, RodState& state) {
   const std::size_t joints = model.laws.size();
@@ -223,7 +238,11 @@ void Canopy::step(std::span<PlantStep> plants, double dt, const Vec3& gravity, T
   models_ = models_of(plants);
   joined_->read_supports(models_);
   read(plants);
-  if (state_changed) gather(plants);
+  if (state_changed) {
+    // On which side of a blade things were says nothing of where they have been put.
+    if (sources_->blades && any_was_moved(*joined_, plants, state_)) sources_->blades->forget();
+    gather(plants);
+  }
   sources_->take(*joined_, plants);
   if (own_) own_->take(*joined_, plants);
   ContactSource* const within = own_ ? static_cast<ContactSource*>(own_.get()) : contact_.get();

@@ -4,6 +4,7 @@
 
 #include "analytic/rod_cases.h"
 #include "analytic/sphere_source.h"
+#include "pedicel/cosserat/contact/plant_blades.h"
 #include "pedicel/cosserat/solver/rod_system.h"
 #include "support/allocation_counter.h"
 #include "unit/cosserat/extension_cases.h"
@@ -87,6 +88,44 @@ TEST(Allocation, NoneWhenAnElementComesOff) {
   for (const bool loops : {false, true})
     for (const bool extended : {false, true})
       EXPECT_EQ(allocations_of_a_warm_run({}, 1, loops, true, extended), 0);
+}
+
+// A leaf's blade that another plant's stem lies on.
+TEST(Allocation, NoneWhereAStemLiesOnABlade) {
+  const Section section = circle_section(0.002, {2.0e9, 0.3, 1000.0, 0.0});
+  const auto finished = [](RodModel model) {
+    for (Element& element : model.elements) {
+      element.radius_near = element.radius_far = 0.002;
+      element.mass_damping = 10.0;
+    }
+    finish(model);
+    return model;
+  };
+  RodModel leaf, stem;
+  leaf.root.rotation = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX());
+  add_element(leaf, -1, Vec3(0.05, 0, 0), section);
+  add_element(leaf, 0, Vec3(0.15, 0.06, 0), section);
+  add_element(leaf, 0, Vec3(0.15, -0.06, 0), section);
+  stem.root.position = Vec3(0.35, 0.01, 0.01);
+  stem.root.rotation = Quat::FromTwoVectors(Vec3::UnitZ(), -Vec3::UnitX());
+  for (int e = 0; e < 8; ++e)
+    add_element(stem, e - 1, Vec3(0.35 - 0.03 * (e + 1), 0.01, 0.01), section);
+  RodSystem system{RodSettings{}};
+  system.add_plant(finished(std::move(leaf)));
+  system.add_plant(finished(std::move(stem)));
+  const BladeTriangle triangle = {BladePlace{0, 0.0}, BladePlace{1, 0.0}, BladePlace{2, 0.0}};
+  system.add_contact_source(
+      0, std::make_unique<PlantBlades>(std::vector<BladeTriangle>{triangle}, 1.5e-4));
+  system.let_plants_touch({1.0e5, 1.0e4, 0.5, 2.0e-4});
+  system.loads(1).push_back({7, 0.0, Vec3(0, 0, -0.3), Vec3::Zero()});
+  for (int i = 0; i < 200; ++i) system.step(1.0 / 240.0, Vec3::Zero());
+  EXPECT_FALSE(system.contact_forces(0).empty());
+  // It swings on, so that candidates are looked for anew.
+  system.loads(1)[0].force_W.z() = -0.1;
+  const long before = allocations();
+  for (int i = 0; i < 200; ++i) system.step(1.0 / 240.0, Vec3::Zero());
+  EXPECT_FALSE(system.contact_forces(0).empty());
+  EXPECT_EQ(allocations() - before, 0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "pedicel/app/steer/steered_worlds.h"
 #include "pedicel/app/steer/visibility.h"
 #include "pedicel/core/check.h"
+#include "places.h"
 
 namespace pedicel::app {
 namespace {
@@ -109,6 +110,28 @@ TEST(VisibleShare, IsOneInTheOpenAndNoneBehindAStem) {
   EXPECT_EQ(visible_share(hidden.simulation(), "twig/berry", {0.02, 1.0, 0.3}), 1.0);
   EXPECT_EQ(visible_share(open.simulation(), "twig/berry", {0.5, 0.0, -1.0}), 0.0);
   EXPECT_THROW(visible_share(open.simulation(), "twig/apple", eye), UsageError);
+}
+
+// The shipped scene of leaf blades: an arm turns a neighbour's leaf aside, which hides the fruit
+// again when it is let go. From the time where it lies on the fingers a saved state goes on alike.
+TEST(VisibleShare, ALeafThatIsTurnedAsideUncoversTheFruit) {
+  const auto scene =
+      std::make_shared<const SteeredScene>(open_document(std::filesystem::path(PEDICEL_SOURCE_DIR) /
+                                                         "assets/scenes/leaf_aside.scene.yaml"),
+                                           std::vector<std::string>{});
+  SteeredRun run(scene), other(scene);
+  const auto seen = [&] {
+    return visible_share(run.simulation(), "bearer/berry", camera_place(run.simulation(), "watch"));
+  };
+  EXPECT_LT(seen(), 0.05);
+  for (int i = 0; i < 600; ++i) run.step();
+  EXPECT_GT(seen(), 0.95);
+  const SavedRun saved = run.save();
+  for (int i = 0; i < 600; ++i) run.step();
+  EXPECT_LT(seen(), 0.05);
+  other.restore(saved);
+  for (int i = 0; i < 600; ++i) other.step();
+  EXPECT_EQ(other.simulation().state_hash(), run.simulation().state_hash());
 }
 
 }  // namespace
