@@ -36,10 +36,11 @@ struct DatasetArguments {
 };
 
 void add_options(CLI::App& verb, DatasetArguments& a) {
-  verb.add_option("scene", a.run.scene, "scene file (*.scene.yaml)")->required();
+  finds_shipped(verb.add_option("scene", a.run.scene, "scene file (*.scene.yaml)"))->required();
   verb.add_option("--count", a.count, "pictures (default: 100)")->check(CLI::Range(1l, 1000000l));
-  verb.add_option("--randomise", a.randomise,
-                  "what varies from picture to picture: a file with `vary` (pedicel-variation)");
+  finds_shipped(verb.add_option(
+      "--randomise", a.randomise,
+      "what varies from picture to picture: a file with `vary` (pedicel-variation)"));
   verb.add_option("--out", a.run.out, "folder (default: out/NAME-dataset); a set there goes on");
   verb.add_option("--seed", a.seed, "picture i is drawn from this plus i (default: the scene's)")
       ->type_name("INT")

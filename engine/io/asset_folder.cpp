@@ -32,4 +32,15 @@ std::filesystem::path asset_folder_of(const std::filesystem::path& program) {
   return {};
 }
 
+std::string shipped_file(const std::string& name, const std::filesystem::path& assets) {
+  std::error_code none;
+  const std::filesystem::path path = name;
+  const bool named = path.is_relative() && path.has_parent_path();
+  if (!named || assets.empty() || std::filesystem::exists(path, none)) return name;
+  const std::filesystem::path shipped = assets.parent_path() / path;
+  return std::filesystem::is_regular_file(shipped, none) ? shipped.string() : name;
+}
+
+std::string shipped_file(const std::string& name) { return shipped_file(name, asset_folder()); }
+
 }  // namespace pedicel::io
