@@ -41,6 +41,8 @@ std::string shipped_file(const std::string& name, const std::filesystem::path& a
   return std::filesystem::is_regular_file(shipped, none) ? shipped.string() : name;
 }
 
-std::string shipped_file(const std::string& name) { return shipped_file(name, asset_folder()); }
+std::string shipped_file(const std::string& name) {
+  return shipped_file(name, asset_folder());
+}
 
 }  // namespace pedicel::io
