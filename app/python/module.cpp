@@ -9,6 +9,7 @@
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/session/document/document_parameters.h"
 #include "pedicel/io/asset_folder.h"
+#include "pedicel/io/csv.h"
 #include "pedicel/robot/inverse_kinematics.h"
 #include "pedicel/world/recorder.h"
 #include "pedicel/world/variation.h"
@@ -43,7 +44,10 @@ void add_values(py::module_& module) {
       .def_readonly("reached", &IkResult::reached, "whether the tool comes there")
       .def_readonly("position_error", &IkResult::position_error, "m")
       .def_readonly("rotation_error", &IkResult::rotation_error, "rad")
-      .def_readonly("sentence", &IkResult::sentence, "why not; empty where it is reached");
+      .def_readonly("sentence", &IkResult::sentence, "why not; empty where it is reached")
+      .def("__repr__", [](const IkResult& r) {
+        return "<Reach: " + (r.reached ? std::string("reached") : r.sentence) + ">";
+      });
   using app::SessionParameter;
   py::class_<SessionParameter>(module, "Parameter", "A described number.")
       .def_readonly("key", &SessionParameter::key, "as for set()")
@@ -53,7 +57,11 @@ void add_values(py::module_& module) {
       .def_readonly("low", &SessionParameter::minimum, "least that is allowed")
       .def_readonly("high", &SessionParameter::maximum, "most that is allowed")
       .def_readonly("sentence", &SessionParameter::sentence, "what it does")
-      .def_readonly("restarts", &SessionParameter::restarts, "set up once: set() refuses it");
+      .def_readonly("restarts", &SessionParameter::restarts, "set up once: set() refuses it")
+      .def("__repr__", [](const SessionParameter& p) {
+        return "<Parameter " + p.key + " = " + io::format_number(p.value, 6) +
+               (p.unit == "1" ? "" : " " + p.unit) + ">";
+      });
 }
 
 void add_variation(py::module_& module) {

@@ -238,7 +238,8 @@ struct BenchArguments {
 void add_bench_options(CLI::App& bench, BenchArguments& a) {
   std::string list;
   for (const std::string& name : bench_names()) list += name + ", ";
-  bench.add_option("name", a.options.name, "one of " + list + "or a scene file (*.scene.yaml)");
+  finds_shipped(bench.add_option("name", a.options.name,
+                                 "one of " + list + "or a scene file (*.scene.yaml)"));
   bench.add_option("--worlds", a.worlds, "independent copies, each stepped by one thread")
       ->check(CLI::Range(1, 100000));
   bench.add_option("--threads", a.threads, "threads (default: 1; with --worlds all cores)")
@@ -376,8 +377,10 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   app.set_version_flag("--version", "pedicel " + version() + " (" + git_hash() + ")");
 
   RunArguments run;
-  app.add_option("scene", run.scene, "scene file (*.scene.yaml), or a log that is played (*.mcap)");
-  app.add_option("--script", run.script, "run commands from a file, one a line, off screen");
+  finds_shipped(app.add_option("scene", run.scene,
+                               "scene file (*.scene.yaml), or a log that is played (*.mcap)"));
+  finds_shipped(
+      app.add_option("--script", run.script, "run commands from a file, one a line, off screen"));
   app.add_flag("--headless", run.headless,
                "no window: run off screen (so do --out, --json and --quiet)");
   DesktopRequest window;
@@ -393,9 +396,9 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
 
   std::vector<std::string> files, packages;
   CLI::App* validate = app.add_subcommand("validate", "load and check files without running them");
-  validate
-      ->add_option("files", files,
-                   "plants, experiments, scenes, leaf templates, URDFs, meshes, tables, scripts")
+  finds_shipped(validate->add_option(
+                    "files", files,
+                    "plants, experiments, scenes, leaf templates, URDFs, meshes, tables, scripts"))
       ->required();
   std::string unit;
   validate->add_option("--unit", unit, "of the lengths in skeletons: m, cm, mm or metres");

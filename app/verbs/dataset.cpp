@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pedicel/app/dataset/data_set.h"
+#include "pedicel/app/plants/plant_overrides.h"
 #include "pedicel/app/run/verbosity.h"
 #include "pedicel/app/session/film.h"
 #include "pedicel/app/verbs/cluster.h"
@@ -19,6 +20,8 @@
 #include "pedicel/core/files_read.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/io/output_folder.h"
+#include "pedicel/plant/plant_numbers.h"
+#include "pedicel/plant/plant_shape.h"
 #include "pedicel/render/offscreen.h"
 #include "pedicel/world/settings.h"
 
@@ -36,10 +39,11 @@ struct DatasetArguments {
 };
 
 void add_options(CLI::App& verb, DatasetArguments& a) {
-  verb.add_option("scene", a.run.scene, "scene file (*.scene.yaml)")->required();
+  finds_shipped(verb.add_option("scene", a.run.scene, "scene file (*.scene.yaml)"))->required();
   verb.add_option("--count", a.count, "pictures (default: 100)")->check(CLI::Range(1l, 1000000l));
-  verb.add_option("--randomise", a.randomise,
-                  "what varies from picture to picture: a file with `vary` (pedicel-variation)");
+  finds_shipped(verb.add_option(
+      "--randomise", a.randomise,
+      "what varies from picture to picture: a file with `vary` (pedicel-variation)"));
   verb.add_option("--out", a.run.out, "folder (default: out/NAME-dataset); a set there goes on");
   verb.add_option("--seed", a.seed, "picture i is drawn from this plus i (default: the scene's)")
       ->type_name("INT")
@@ -70,7 +74,18 @@ void add_variation(world::Scene& scene, const std::string& file) {
                   [&](const world::VariedNumber& known) { return known.key == one.key; });
     scene.vary.push_back(one);
   }
-  world::drawn_scene(scene);  // an impossible key is found before the first picture
+  // An unknown key is found before the first picture; an impossible value leaves out a picture.
+  Diagnostics faults;
+  const world::Scene drawn = world::drawn_scene(scene);
+  for (const world::ScenePlant& one : drawn.plants)
+    for (const world::Setting& setting : one.set) {
+      if (faults.has_errors() || plant::find_plant_number(setting.key) ||
+          plant::find_shape_factor(setting.key))
+        continue;
+      plant::PlantFile nothing;
+      apply_plant_overrides(nothing, {setting}, faults);  // says which there are
+    }
+  if (faults.has_errors()) throw InvalidFile(faults);
 }
 
 std::array<double, 2> times_of(const std::string& text, double duration) {

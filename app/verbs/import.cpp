@@ -9,6 +9,7 @@
 
 #include "pedicel/app/verbs/import_log.h"
 #include "pedicel/app/verbs/import_words.h"
+#include "pedicel/app/verbs/run_arguments.h"
 #include "pedicel/app/verbs/validate.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/exit_code.h"
@@ -205,8 +206,9 @@ std::function<int()> add_import_verb(CLI::App& app) {
           "recordings of points, or logs of a robot (MCAP), one a trial, named by the file")
       ->required();
   verb->add_option("--out", a->out, "experiment folder to write")->required();
-  verb->add_option("--plant", a->plant, "plant file of the nominal plant");
-  verb->add_option("--scene", a->scene, "scene file of the nominal scene, for logs of a robot");
+  finds_shipped(verb->add_option("--plant", a->plant, "plant file of the nominal plant"));
+  finds_shipped(verb->add_option("--scene", a->scene,
+                                 "scene file of the nominal scene, for logs of a robot"));
   verb->add_option("--title", a->title, "title of the experiment");
   verb->add_option("--format", a->format, "of the recordings (default: told from the content)")
       ->check(CLI::IsMember({"motive", "qualisys", "vicon", "deeplabcut", "tracker", "c3d"}));

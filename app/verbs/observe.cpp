@@ -7,6 +7,7 @@
 #include "pedicel/app/bench/parallel_worlds.h"
 #include "pedicel/app/plants/plant_overrides.h"
 #include "pedicel/app/run/scene_plants.h"
+#include "pedicel/app/verbs/run_arguments.h"
 #include "pedicel/app/verbs/scene_experiment.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/random.h"
@@ -156,7 +157,8 @@ void simulate(const ObserveArguments& a, Experiment& experiment) {
 }  // namespace
 
 void add_observe_options(CLI::App& observe, ObserveArguments& a) {
-  observe.add_option("model", a.model, "plant file, or scene or experiment whose plant is meant")
+  finds_shipped(observe.add_option("model", a.model,
+                                   "plant file, or scene or experiment whose plant is meant"))
       ->required();
   observe.add_option("--plant", a.plant, "name of the scene's plant, where it has several");
   observe.add_option("--like", a.like, "experiment whose drives, markers and times are repeated")

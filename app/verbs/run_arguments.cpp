@@ -14,6 +14,7 @@
 #include "pedicel/app/topics/mcap_log.h"
 #include "pedicel/app/verbs/cluster.h"
 #include "pedicel/core/check.h"
+#include "pedicel/io/asset_folder.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/bounds.h"
 #include "pedicel/io/output_check.h"
@@ -81,6 +82,14 @@ bool RunArguments::asks_for_run() const {
                      !gltf.empty() || !compare.empty() || !save_state.empty() ||
                      !load_state.empty() || !param_sweep.empty() || !trajectory.empty();
   return files || headless || json || quiet || print_scene || steps;
+}
+
+CLI::Option* finds_shipped(CLI::Option* option) {
+  const auto find = [](std::string& name) {
+    name = io::shipped_file(name);
+    return std::string();
+  };
+  return option->transform(CLI::Validator(find, ""));
 }
 
 void add_run_options(CLI::App& app, RunArguments& a) {

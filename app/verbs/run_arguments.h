@@ -9,7 +9,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace pedicel::app {
 
@@ -33,6 +34,10 @@ struct RunArguments {
 };
 
 void add_run_options(CLI::App& app, RunArguments& a);
+
+/// An option that names files to read: those that ship with the program are found by their names
+/// (io::shipped_file), wherever it runs.
+CLI::Option* finds_shipped(CLI::Option* option);
 
 /// Refuses options that exclude each other, and applies those that count for the whole program.
 /// Throws UsageError.

@@ -124,7 +124,7 @@ int run(SweepArguments a, const CLI::App& verb) {
 std::function<int()> add_sweep_verb(CLI::App& app) {
   const auto a = std::make_shared<SweepArguments>();
   CLI::App* verb = app.add_subcommand("sweep", "run a scene for several values of one setting");
-  verb->add_option("scene", a->scene, "scene file")->required();
+  finds_shipped(verb->add_option("scene", a->scene, "scene file"))->required();
   add_run_options(*verb, *a);
   cluster::add_cluster_options(*verb, a->cluster);
   verb->add_option("--part", a->part, "only this one of the cases: what a task of --cluster calls")

@@ -2,7 +2,8 @@
 # # Learn to take a fruit off and to lay it down
 #
 # A policy looks at what the one by hand does, and then becomes better than it by an evolution
-# strategy, in numpy. `python3 learn_harvest.py SECONDS` learns for that long (default: 600).
+# strategy, in numpy. `python3 learn_harvest.py SECONDS FILE` learns for that long (default: 600), and
+# writes the policy to the file (*.npy). With 0 seconds it takes the policy from there and tries it.
 
 # %%
 import sys
@@ -14,6 +15,7 @@ from pedicel import envs
 from pedicel.envs import scripted
 
 seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 600.0
+file = sys.argv[2] if len(sys.argv) > 2 else None
 worlds, best, drawn = 16, 4, np.random.default_rng(0)
 vector = envs.make_vec("pedicel/Harvest-v0", worlds)
 
@@ -104,6 +106,10 @@ while time.perf_counter() - begin < seconds:
     generation += 1
     print(f"{time.perf_counter() - begin:6.0f} s, generation {generation}: kept {score[0]:6.2f}, "
           f"mean {score.mean():6.2f}, best {score.max():6.2f}", flush=True)
+if seconds == 0 and file:
+    kept = np.load(file)
+elif file:
+    np.save(file, kept)
 
 # %% [markdown]
 # On seeds that it has not learned on, beside the policy written by hand and a random one.

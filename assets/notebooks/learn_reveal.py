@@ -2,7 +2,8 @@
 # # Learn to push leaves aside
 #
 # The cross-entropy method, in numpy: many small policies are tried at once, and the next ones are
-# drawn around the best. `python3 learn_reveal.py SECONDS` learns for that long (default: 600).
+# drawn around the best. `python3 learn_reveal.py SECONDS FILE` learns for that long (default: 600), and
+# writes the policy to the file (*.npy). With 0 seconds it takes the policy from there and tries it.
 
 # %%
 import sys
@@ -14,6 +15,7 @@ from pedicel import envs
 from pedicel.envs import scripted
 
 seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 600.0
+file = sys.argv[2] if len(sys.argv) > 2 else None
 worlds, best, drawn = 16, 4, np.random.default_rng(0)
 vector = envs.make_vec("pedicel/Reveal-v0", worlds)
 
@@ -59,6 +61,10 @@ while time.perf_counter() - begin < seconds:
     generation += 1
     print(f"{time.perf_counter() - begin:6.0f} s, generation {generation}: mean {score.mean():6.2f}, "
           f"best {score.max():6.2f}", flush=True)
+if seconds == 0 and file:
+    mean = np.load(file)
+elif file:
+    np.save(file, mean)
 
 # %% [markdown]
 # On seeds that it has not learned on, beside the policy written by hand and a random one.

@@ -1,26 +1,33 @@
 #include "pedicel/io/asset_folder.h"
 
 #include <dlfcn.h>
+#include <sys/auxv.h>
 
 namespace pedicel::io {
 
 namespace {
 
-// The file that this code lies in: the program, or a module that another program has loaded.
-std::filesystem::path file_of_this_code() {
-  Dl_info info;
-  if (!dladdr(reinterpret_cast<const void*>(&asset_folder_of), &info) || !info.dli_fname) return {};
+// The module that this code lies in, where another program has loaded it; nothing where it lies in
+// the program itself, of which dladdr() knows no more than the name by which it was called.
+std::filesystem::path module_of_this_code() {
+  Dl_info here, program;
+  if (!dladdr(reinterpret_cast<const void*>(&asset_folder_of), &here) || !here.dli_fname) return {};
+  // The kernel tells where the program's own headers lie.
+  if (dladdr(reinterpret_cast<const void*>(getauxval(AT_PHDR)), &program) &&
+      program.dli_fbase == here.dli_fbase)
+    return {};
   std::error_code none;
-  return std::filesystem::canonical(info.dli_fname, none);
+  return std::filesystem::canonical(here.dli_fname, none);
 }
 
 }  // namespace
 
 std::filesystem::path asset_folder() {
   std::error_code none;
-  // Of a program that was found on the path, dladdr() knows the name only.
-  const auto by_program = asset_folder_of(std::filesystem::read_symlink("/proc/self/exe", none));
-  return by_program.empty() ? asset_folder_of(file_of_this_code()) : by_program;
+  // A module's own come first: beside Python there may be those of another version.
+  const auto by_module = asset_folder_of(module_of_this_code());
+  return by_module.empty() ? asset_folder_of(std::filesystem::read_symlink("/proc/self/exe", none))
+                           : by_module;
 }
 
 std::filesystem::path asset_folder_of(const std::filesystem::path& program) {
@@ -30,6 +37,19 @@ std::filesystem::path asset_folder_of(const std::filesystem::path& program) {
     for (const char* place : {"assets", "share/pedicel/assets"})
       if (std::filesystem::is_directory(folder / place / "leaves", none)) return folder / place;
   return {};
+}
+
+std::string shipped_file(const std::string& name, const std::filesystem::path& assets) {
+  std::error_code none;
+  const std::filesystem::path path = name;
+  const bool named = path.is_relative() && path.has_parent_path();
+  if (!named || assets.empty() || std::filesystem::exists(path, none)) return name;
+  const std::filesystem::path shipped = assets.parent_path() / path;
+  return std::filesystem::is_regular_file(shipped, none) ? shipped.string() : name;
+}
+
+std::string shipped_file(const std::string& name) {
+  return shipped_file(name, asset_folder());
 }
 
 }  // namespace pedicel::io

@@ -1,5 +1,6 @@
 #include "pedicel/render/renderer.h"
 
+#include <map>
 #include <string>
 
 #include "pedicel/core/check.h"
@@ -16,6 +17,7 @@ namespace pedicel::render {
 namespace {
 
 constexpr int largest_side = 8192;
+constexpr int smallest_shadow = 256;  // px
 
 std::array<float, 16> columns(const Mat4& m) {
   std::array<float, 16> values;
@@ -44,7 +46,7 @@ void check(const RenderSettings& s) {
   };
   if (s.samples != 1 && s.samples != 2 && s.samples != 4)
     refuse("samples", std::to_string(s.samples), "1, 2 or 4");
-  if (s.shadow_size < 256 || s.shadow_size > largest_side)
+  if (s.shadow_size < smallest_shadow || s.shadow_size > largest_side)
     refuse("shadow_size", std::to_string(s.shadow_size) + " px", "between 256 and 8192");
   if (!(s.to_sun.z() > 0.0) || !s.to_sun.allFinite())
     refuse("to_sun.z", std::to_string(s.to_sun.z()), "> 0 (the sun is above the horizon)");
@@ -64,7 +66,6 @@ class Renderer::Implementation {
         seen_(gl_, shapes_, cache_),
         ghost_(gl_, shapes_, cache_),
         casting_(gl_, shapes_, cache_),
-        shadow_(std::make_unique<DepthMap>(gl_, settings.shadow_size, true)),
         contact_(gl_) {
     gl_.GenVertexArrays(1, &empty_array_);
   }
@@ -72,6 +73,7 @@ class Renderer::Implementation {
 
   const RenderTarget& draw(const DrawList& list, const Camera& camera, int width, int height) {
     prepare_target(width, height);
+    prepare_shadow(width, height);
     cache_.drop_unused();
     const Detail detail(camera, width, height, settings_.detail);
     seen_.prepare(list, detail);
@@ -111,8 +113,6 @@ class Renderer::Implementation {
 
   void set(const RenderSettings& settings) {
     if (settings.samples != settings_.samples) target_.reset();
-    if (settings.shadow_size != settings_.shadow_size)
-      shadow_ = std::make_unique<DepthMap>(gl_, settings.shadow_size, true);
     settings_ = settings;
   }
 
@@ -123,6 +123,15 @@ class Renderer::Implementation {
     if (target_ && target_->width() == width && target_->height() == height) return;
     target_.reset();
     target_ = std::make_unique<RenderTarget>(gl_, width, height, settings_.samples);
+  }
+
+  void prepare_shadow(int width, int height) {
+    // Without shadows the map says that everything is lit.
+    const int side =
+        settings_.shadows ? shadow_side(settings_.shadow_size, width, height) : smallest_shadow;
+    std::unique_ptr<DepthMap>& map = shadows_[side];
+    if (!map) map = std::make_unique<DepthMap>(gl_, side, true);
+    shadow_ = map.get();
   }
 
   FrameUniforms light(const DrawList& list, const Eigen::AlignedBox3d& casters) const {
@@ -156,7 +165,8 @@ class Renderer::Implementation {
     frame.view_up = floats(view.block<1, 3>(1, 0).transpose() * up);
     frame.view_forward = floats(-view.block<1, 3>(2, 0).transpose());
     frame.viewport = {static_cast<float>(width), static_cast<float>(height),
-                      static_cast<float>(camera.near_plane), 1.0f / settings_.shadow_size};
+                      static_cast<float>(camera.near_plane),
+                      shadow_ ? 1.0f / static_cast<float>(shadow_->size()) : 0.0f};
   }
 
   /// Round things cast with their far side: the near side, whose coarse facets lie now inside, now
@@ -241,8 +251,9 @@ class Renderer::Implementation {
   UnitMeshes shapes_;
   MeshCache cache_;
   FrameGeometry seen_, ghost_, casting_;
-  std::unique_ptr<DepthMap> shadow_;
-  std::unique_ptr<LabelPass> labels_;  // once it is asked for
+  std::map<int, std::unique_ptr<DepthMap>> shadows_;  // by their sides, px
+  DepthMap* shadow_ = nullptr;                        // of the last picture
+  std::unique_ptr<LabelPass> labels_;                 // once it is asked for
   ContactMap contact_;
   std::unique_ptr<RenderTarget> target_;
   GLuint empty_array_ = 0;

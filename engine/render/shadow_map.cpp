@@ -1,5 +1,6 @@
 #include "pedicel/render/shadow_map.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pedicel/core/check.h"
@@ -23,6 +24,12 @@ SunView fit_sun(const Eigen::AlignedBox3d& casters, const Vec3& to_sun, int size
   sun.matrix.row(1) << up.transpose() / radius, -y / radius;
   sun.matrix.row(2) << -back.transpose() / radius, back.dot(centre) / radius;
   return sun;
+}
+
+int shadow_side(int largest, int width, int height) {
+  int side = 256;
+  while (side < 3 * std::max(width, height)) side *= 2;
+  return std::min(side, largest);
 }
 
 Mat4 to_texture(const Mat4& clip) {

@@ -15,6 +15,10 @@ struct SunView {
 /// texels, so that shadow edges do not shimmer while things move.
 SunView fit_sun(const Eigen::AlignedBox3d& casters, const Vec3& to_sun, int size);
 
+/// Side of the shadow map of a picture, px: finer than the picture can show is lost time. A power
+/// of two from 256 on, at least three times the picture's longer side, and at most `largest`.
+int shadow_side(int largest, int width, int height);
+
 /// Turns clip space (-1 .. 1) into texture space (0 .. 1).
 Mat4 to_texture(const Mat4& clip);
 

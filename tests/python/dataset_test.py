@@ -236,11 +236,15 @@ class DatasetTest(Case):
         with open(os.path.join(out, "mine.txt"), "w") as file:
             file.write("mine")
         self.make("set", "--count", "1", good=(6,))
-        with open(self.vary, "a") as file:
-            file.write("  look.smell: {distribution: uniform, low: 0, high: 1}\n")
-        _, run = self.make("other", "--count", "1", good=(3,))
-        self.assertIn("look.smell", run.stderr)
-        self.assertIn("twig.vary.yaml:12", run.stderr)
+
+    def test_a_key_that_nothing_has_ends_it_before_the_first_picture(self):
+        for key in ("look.smell", "material.smell"):
+            with open(self.vary, "w") as file:
+                file.write(f"{VARY}  {key}: {{distribution: uniform, low: 0, high: 1}}\n")
+            out, run = self.make("other", "--count", "1", good=(3,))
+            self.assertIn(key, run.stderr)
+            self.assertIn("twig.vary.yaml:12", run.stderr)
+            self.assertFalse(os.path.exists(os.path.join(out, "labels")))
 
 
 if __name__ == "__main__":

@@ -224,6 +224,7 @@ class SimulationTest(Case):
         key = next(k for k in soft.parameters if k.endswith("material.youngs_modulus"))
         self.assertEqual(soft.parameters[key].value, 2.0e7)
         self.assertEqual(soft.parameters[key].unit, "Pa")
+        self.assertIn("material.youngs_modulus = 2e+07 Pa>", repr(soft.parameters[key]))
         soft.set(key, 5.0e6)
         self.assertEqual(soft.parameters[key].value, 5.0e6)
         for sim in (soft, same):

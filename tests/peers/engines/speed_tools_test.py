@@ -10,12 +10,14 @@ TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
 
 
 def rows(tool, *options):
-    """{first cells: numbers} of the table that it prints."""
+    """{first cells: numbers} of the table that it prints, and the lines below it."""
     done = subprocess.run([TOOLS / tool, "--build", sys.argv[1], "--rounds", "1", *options], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"FAILED: {tool}: exit code {done.returncode}: {done.stderr}")
-    lines = [line.strip("| ").split(" | ") for line in done.stdout.splitlines()[2:]]
-    return {" ".join(cells[:-2]): [float(cell) for cell in cells[-2:]] for cells in lines}
+    lines = done.stdout.splitlines()[2:]
+    table = [line.strip("| ").split(" | ") for line in lines if line.startswith("|")]
+    below = " ".join(line for line in lines if not line.startswith("|"))
+    return {" ".join(cells[:-2]): [float(cell) for cell in cells[-2:]] for cells in table}, below
 
 
 def check(tool, found, *programs):
@@ -28,6 +30,9 @@ def check(tool, found, *programs):
 if not ctypes.util.find_library("mujoco"):
     print("skipped: libmujoco-dev is not installed (tools/packages-ci.txt)")
     sys.exit(77)
-check("arm_speed", rows("arm_speed", "--seconds", "0.05"), "Bullet", "stem", "Python", "MuJoCo, arm alone", "ball joints")
-check("row_speed", rows("row_speed", "--seconds", "0.05", "--plants", "1"), "Pedicel, 1 thread", "MuJoCo")
+table, below = rows("arm_speed", "--seconds", "0.05")
+check("arm_speed", table, "Bullet", "stem", "Python", "MuJoCo, arm alone", "ball joints")
+if len(re.findall(r"[+-]\d+\.\d % \(", below)) != 2:
+    sys.exit(f"FAILED: arm_speed: not two costs of Python: {below}")
+check("row_speed", rows("row_speed", "--seconds", "0.05", "--plants", "1")[0], "Pedicel, 1 thread", "MuJoCo")
 print("passed")

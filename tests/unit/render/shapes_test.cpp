@@ -95,5 +95,14 @@ TEST(GlFunctions, NamesWhatIsMissing) {
                   "OpenGL function glActiveTexture is missing, expected an OpenGL 3.3 core")));
 }
 
+TEST(ShadowMap, OfASmallPictureIsSmall) {
+  EXPECT_EQ(shadow_side(2048, 1280, 720), 2048);
+  EXPECT_EQ(shadow_side(2048, 640, 400), 2048);
+  EXPECT_EQ(shadow_side(2048, 320, 240), 1024);
+  EXPECT_EQ(shadow_side(2048, 120, 160), 512);
+  EXPECT_EQ(shadow_side(2048, 16, 16), 256);
+  EXPECT_EQ(shadow_side(512, 320, 240), 512);
+}
+
 }  // namespace
 }  // namespace pedicel::render
