@@ -1,0 +1,21 @@
+#include <gtest/gtest.h>
+
+#include "discrepancy/scene_cases/right_case.h"
+
+namespace pedicel::scene_case {
+namespace {
+
+// More cases of `scene_bench --seed 1`: causes of the arm and of the instruments.
+class FurtherSceneCases : public testing::TestWithParam<int> {};
+
+TEST_P(FurtherSceneCases, ComesOutRight) {
+  expect_right(1, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Something, FurtherSceneCases, testing::Values(11),
+                         [](const testing::TestParamInfo<int>& info) {
+                           return test_name(info.param);
+                         });
+
+}  // namespace
+}  // namespace pedicel::scene_case
