@@ -495,14 +495,13 @@ void conclude_detachment(Diagnosis& diagnosis) {
   plant::Effect effect;
   effect.name = cause.name;
   const BreakLaw& law = strength.law->law;
-  const std::array names{"force", "moment", "torsion"};
-  const std::array units{"N", "N m", "N m"};
-  for (int i = 0; i < 3; ++i) {
-    const double scale = law.scale[stalk_force + i];
+  for (int i = stalk_force; i < stalk_load_count; ++i) {
+    const double scale = law.scale[i];
     if (!std::isfinite(scale)) continue;
-    const double factor = std::exp(interval95 * strength.law->error[stalk_force + i]);
-    cause.parameters[names[i]] = {{scale, scale / factor, scale * factor, units[i]}};
-    effect.numbers[names[i]] = {scale};
+    const double factor = std::exp(interval95 * strength.law->error[i]);
+    const std::string name(stalk_limits[i].name), unit(stalk_limits[i].unit);
+    cause.parameters[name] = {{scale, scale / factor, scale * factor, unit}};
+    effect.numbers[name] = {scale};
   }
   const Estimate exponent{law.exponent, law.exponent, law.exponent, "1"};
   cause.parameters["exponents"] = {exponent, exponent, exponent};
