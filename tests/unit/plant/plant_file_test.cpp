@@ -211,9 +211,9 @@ void expect_numbers_read_back(const Keys& keys, Owner& (*owner)(PlantFile&), int
     set_number_of(owner(plant), key, bad);
     Diagnostics diagnostics;
     EXPECT_FALSE(parse_plant(plant_text(plant), "p.plant.yaml", diagnostics)) << key.name;
-    EXPECT_THAT(diagnostics.text(), ::testing::HasSubstr(std::string(key.name) + " is -7"));
     EXPECT_THAT(diagnostics.text(),
-                ::testing::HasSubstr("expected " + io::bounds_text(key.bounds)));
+                ::testing::HasSubstr(std::string(key.name) + " is \"-7\", expected " +
+                                     io::bounds_text(key.bounds)));
   }
   EXPECT_EQ(seen, numbers);
 }
