@@ -185,6 +185,19 @@ TEST(EffectList, HasEachNameOnce) {
   EXPECT_GE(names.size(), 30u);
 }
 
+TEST(EffectList, HasAFactorForEachNumberOfTheMaterialWithARole) {
+  int roles = 0;
+  for (const plant::MaterialKey& key : plant::material_keys) {
+    if (key.role == plant::MaterialRole::none) continue;
+    ++roles;
+    EXPECT_EQ(&plant::material_key(key.role), &key) << "two numbers have one role";
+    EXPECT_EQ(material_factor(key.role).name, key.name);
+    EXPECT_TRUE(key.known_to) << key.name;
+  }
+  EXPECT_EQ(material_factors().size(), static_cast<std::size_t>(roles));
+  EXPECT_EQ(plant::count_roles(), roles);
+}
+
 TEST(EffectList, HasOneSpringForJunctionsOfOtherSolvers) {
   std::vector<std::string> named;
   for (const EffectDefinition& one : effect_definitions()) {
