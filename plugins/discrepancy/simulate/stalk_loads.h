@@ -9,6 +9,7 @@
 namespace pedicel::discrepancy {
 
 using cosserat::stalk_limits;
+using cosserat::StalkLoad;
 using cosserat::StalkNumbers;
 using enum cosserat::StalkLoad;
 inline constexpr int stalk_load_count = static_cast<int>(stalk_limits.size());
