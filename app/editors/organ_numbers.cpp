@@ -16,31 +16,40 @@ namespace pedicel::app {
 
 namespace {
 
-using plant::DetachLimits;
+using plant::MaterialKey;
 using plant::MaterialValues;
+using plant::PlantKey;
 
-struct Threshold {
-  const char *key, *label, *unit;
-  std::optional<double> DetachLimits::*limit;
-};
-constexpr std::array<Threshold, 5> thresholds = {
-    {{"stretch", "Off at strain of", "", &DetachLimits::stretch},
-     {"bend", "or bent by", "rad", &DetachLimits::bend},
-     {"force", "or at a force of", "N", &DetachLimits::force},
-     {"moment", "or a moment of", "N m", &DetachLimits::moment},
-     {"torsion", "or a torsion of", "N m", &DetachLimits::torsion}}};
+/// As the window writes a unit: none for pure numbers.
+std::string unit_of(std::string_view unit) {
+  return unit == "1" ? "" : std::string(unit);
+}
 
-struct Constant {
-  const char *key, *label, *unit, *what;
-  std::optional<double> MaterialValues::*value;
-};
-constexpr std::array<Constant, 4> constants = {
-    {{"youngs_modulus", "Modulus", "Pa", "Stiffness of this stem", &MaterialValues::youngs_modulus},
-     {"density", "Density", "kg/m3", "Mass of this stem", &MaterialValues::density},
-     {"damping_time", "Damping", "s", "Kelvin-Voigt time of this stem",
-      &MaterialValues::damping_time},
-     {"poisson_ratio", "Poisson ratio", "", "Shear and twist of this stem",
-      &MaterialValues::poisson_ratio}}};
+/// The field of a number that has a label; lengths are in mm. True once one was typed.
+template <typename Owner>
+bool field(Ui& ui, const PlantKey<Owner>& key, double& value) {
+  const double factor = key.unit == "m" ? 1e3 : 1.0;
+  double shown = factor * value;
+  const std::string unit = key.unit == "m" ? "mm" : unit_of(key.unit);
+  const bool typed = labelled_number(ui, std::string(key.label).c_str(), unit.c_str(), shown);
+  value = shown / factor;
+  return typed;
+}
+
+/// Of a fruit or a leaf: `organ` is a copy, as each command replaces the plant.
+template <typename Organ, typename Keys>
+void draw_numbers(Ui& ui, const std::string& plant, const Keys& keys, const Organ& organ) {
+  for (const PlantKey<Organ>& key : keys) {
+    if (key.label.empty() || !key.is_number()) continue;
+    double value = number_of(organ, key).value_or(0.0);
+    if (field(ui, key, value))
+      ui.run(Command("set organ", {{"plant", plant},
+                                   {"name", organ.name},
+                                   {"key", std::string(key.name)},
+                                   {"value", value}}));
+    if (!key.tip.empty()) tip(std::string(key.tip));
+  }
+}
 
 void say_who(const PlantSetting& set, const std::string& file_says) {
   if (set.by == SetBy::session) note("tuned for the whole plant; its file says " + file_says);
@@ -102,18 +111,25 @@ void draw_thresholds(Ui& ui, const std::string& plant, const plant::PlantFruit& 
   const plant::PlantFile acting = effective_plant(ui.session.document(), plant);
   const plant::PlantFruit* now = fruit_of(acting, fruit.name);
   if (!now) return;
-  for (const Threshold& one : thresholds) {
-    const std::string key = std::string("detach.") + one.key;
+  for (const PlantKey<plant::DetachLimits>& one : plant::detach_keys) {
+    const std::string name(one.name), key = "detach." + name;
     const PlantSetting set = who_sets(ui.session.document(), plant, key);
-    double value = (now->detach.*one.limit).value_or(0.0);
-    if (labelled_number(ui, one.label, one.unit, value) && value >= 0.0)
-      set_over(
-          ui, plant, key, set, value,
-          Command("set organ",
-                  {{"plant", plant}, {"name", fruit.name}, {"key", one.key}, {"value", value}}));
+    double value = number_of(now->detach, one).value_or(0.0);
+    if (field(ui, one, value) && value >= 0.0)
+      set_over(ui, plant, key, set, value,
+               Command("set organ",
+                       {{"plant", plant}, {"name", fruit.name}, {"key", name}, {"value", value}}));
     tip("0: never for this cause. Enter takes it over");
-    say_who(set, text_of(fruit.detach.*one.limit));
+    say_who(set, text_of(number_of(fruit.detach, one)));
   }
+}
+
+void draw_fruit_numbers(Ui& ui, const std::string& plant, const plant::PlantFruit& fruit) {
+  draw_numbers(ui, plant, plant::fruit_keys, plant::PlantFruit(fruit));
+}
+
+void draw_leaf_numbers(Ui& ui, const std::string& plant, const plant::PlantLeaf& leaf) {
+  draw_numbers(ui, plant, plant::leaf_keys, plant::PlantLeaf(leaf));
 }
 
 void draw_stem_material(Ui& ui, const std::string& plant, const plant::PlantCurve& curve) {
@@ -124,26 +140,27 @@ void draw_stem_material(Ui& ui, const std::string& plant, const plant::PlantCurv
   if (index < 0) return;
   const MaterialValues& own = acting.curves[static_cast<std::size_t>(index)].material;
   bool any_own = false;
-  for (const Constant& one : constants) {
-    const std::optional<double> of_plant = acting.material.*one.value;
-    double value = (own.*one.value).value_or(of_plant.value_or(0.0));
-    const std::string key = std::string("material.") + one.key;
-    if (labelled_number(ui, one.label, one.unit, value))
-      set_over(
-          ui, plant, key, who_sets(document, plant, key), value,
-          Command("set material",
-                  {{"plant", plant}, {"key", one.key}, {"value", value}, {"stem", curve.name}}));
-    const bool is_own = (curve.material.*one.value).has_value();
+  for (const MaterialKey& one : plant::material_keys) {
+    const std::optional<double> of_plant = number_of(acting.material, one);
+    double value = number_of(own, one).value_or(of_plant.value_or(0.0));
+    const std::string name(one.name), key = "material." + name;
+    if (field<MaterialValues>(ui, one, value))
+      set_over(ui, plant, key, who_sets(document, plant, key), value,
+               Command("set material",
+                       {{"plant", plant}, {"key", name}, {"value", value}, {"stem", curve.name}}));
+    const bool is_own = number_of(curve.material, one).has_value();
     any_own = any_own || is_own;
-    tip(std::string(one.what) + (is_own ? ", its own" : ", the plant's until another is typed"));
+    tip(std::string(one.tip) + (is_own ? ", its own" : ", the plant's until another is typed"));
   }
   if (!any_own) return note("The plant's; what is typed is this stem's own.");
   if (!wide_button("As the plant")) return;
   ui.session.begin_gesture();
-  for (const Constant& one : constants)
-    if (curve.material.*one.value)
-      ui.run(Command("set material",
-                     {{"plant", plant}, {"key", one.key}, {"value", 0.0}, {"stem", curve.name}}));
+  for (const MaterialKey& one : plant::material_keys)
+    if (number_of(curve.material, one))
+      ui.run(Command("set material", {{"plant", plant},
+                                      {"key", std::string(one.name)},
+                                      {"value", 0.0},
+                                      {"stem", curve.name}}));
   ui.session.end_gesture();
 }
 

@@ -13,6 +13,10 @@ void tool_to_selection_button(Ui& ui);
 /// a word about it. What is typed is this fruit's; a tuned number is written into the plant first.
 void draw_thresholds(Ui& ui, const std::string& plant, const plant::PlantFruit& fruit);
 
+/// The numbers of a fruit or a leaf that stand in its entry of the plant file.
+void draw_fruit_numbers(Ui& ui, const std::string& plant, const plant::PlantFruit& fruit);
+void draw_leaf_numbers(Ui& ui, const std::string& plant, const plant::PlantLeaf& leaf);
+
 /// The material of a stem, as it acts now: its own numbers, or the plant's until one is typed.
 void draw_stem_material(Ui& ui, const std::string& plant, const plant::PlantCurve& curve);
 

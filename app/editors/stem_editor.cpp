@@ -70,14 +70,8 @@ void fruit_details(Ui& ui) {
   if (!file) return;
   for (const plant::PlantFruit& one : file->fruits) {
     if (one.name != fruit.name) continue;
-    const auto set = [&](const char* key, double value) {
-      ui.run(Command(
-          "set organ",
-          {{"plant", plant->model->name}, {"name", one.name}, {"key", key}, {"value", value}}));
-    };
-    double radius = 1e3 * one.radius, density = one.density, at = one.place.at;
-    if (labelled_number(ui, "Radius", "mm", radius)) set("radius", radius / 1e3);
-    if (labelled_number(ui, "Density", "kg/m3", density)) set("density", density);
+    double at = one.place.at;
+    draw_fruit_numbers(ui, plant->model->name, one);
     draw_thresholds(ui, plant->model->name, one);
     if (labelled_number(ui, "Place on stem", "", at))
       ui.run(Command("move organ", {{"plant", plant->model->name},
@@ -110,11 +104,8 @@ const plant::PlantLeaf* chosen_leaf(const Ui& ui, std::string& plant) {
 }
 
 void leaf_details(Ui& ui, const std::string& plant, const plant::PlantLeaf& leaf) {
-  double size = 1e3 * leaf.size, at = leaf.place.at;
-  if (labelled_number(ui, "Size", "mm", size))
-    ui.run(
-        Command("set organ",
-                {{"plant", plant}, {"name", leaf.name}, {"key", "size"}, {"value", size / 1e3}}));
+  double at = leaf.place.at;
+  draw_leaf_numbers(ui, plant, leaf);
   if (labelled_number(ui, "Place on stem", "", at))
     ui.run(
         Command("move organ",

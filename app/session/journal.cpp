@@ -35,21 +35,19 @@ std::string empty_plant_text(const DocumentPlant& one) {
   const auto line = [](const Command& command) { return command.text() + "\n"; };
   const plant::PlantFile& file = *one.file;
   const std::string& name = one.entry.name;
-  const auto material = [&](const char* key, const std::optional<double>& value) {
-    return value ? line(Command("set material", {{"plant", name}, {"key", key}, {"value", *value}}))
-                 : std::string();
-  };
-  const auto sampling = [&](const char* key, double value) {
-    return line(Command("set sampling", {{"plant", name}, {"key", key}, {"value", value}}));
+  const auto numbers = [&](const char* verb, const auto& keys, const auto& of) {
+    std::string lines;
+    for (const auto& key : keys)
+      if (const auto value = plant::number_of(of, key))
+        lines += line(
+            Command(verb, {{"plant", name}, {"key", std::string(key.name)}, {"value", *value}}));
+    return lines;
   };
   return line(Command("new plant", {{"plant", name},
                                     {"position", one.entry.pose.position},
                                     {"turn", turn_numbers(one.entry.pose.rotation)}})) +
-         material("youngs_modulus", file.material.youngs_modulus) +
-         material("poisson_ratio", file.material.poisson_ratio) +
-         material("density", file.material.density) +
-         material("damping_time", file.material.damping_time) + sampling("connect", file.connect) +
-         sampling("distance", file.distance);
+         numbers("set material", plant::material_keys, file.material) +
+         numbers("set sampling", plant::sampling_keys, file);
 }
 
 /// The scene without what is recorded; of its plants only the names, since it speaks of them.

@@ -55,6 +55,14 @@ EffectDefinition define_attachment_compliance() {
                                .positive("stiffness", part * k, 1e-5 * k, 1e4 * k));
     return starts;
   };
+  // A solver that leads a branch into its stem in its own way makes such a spring: from the softest
+  // that a discretisation can make to one that does nothing.
+  d.at_junction = [](const std::string& curve, double softest) {
+    return Start("attachment_compliance")
+        .place(curve, 0.0)
+        .positive("stiffness", 4.0 * softest, softest, 1e3 * softest)
+        .prior(2.0, 8.0 * softest);
+  };
   d.speaks_for = {{"junction_kink", 1}};
   d.tells_apart = "put a marker on either side of the junction";
   return d;

@@ -27,9 +27,7 @@ EffectDefinition define_damping_time() {
     return {Start("damping_time").positive("factor", 1.0, 1.0 / 300.0, 300.0).prior(1.5, 1.0)};
   };
   d.speaks_for = {{"damping", 1}, {"loop_area_by_rate", 1}};
-  d.material = &plant::MaterialValues::damping_time;
-  d.known_to = &plant::MaterialKnowledge::damping_time;
-  d.material_unit = "s";
+  d.material = &plant::material_key(plant::MaterialRole::damping);
   // For the sentence of a verdict, which says what a factor means.
   d.less = "less damped";
   d.more = "more damped";

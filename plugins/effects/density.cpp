@@ -27,9 +27,7 @@ EffectDefinition define_density() {
     return {Start("density").positive("factor", 1.0, 1.0 / 10.0, 10.0).prior(0.1, 1.0)};
   };
   d.speaks_for = {{"frequency", 2}};
-  d.material = &plant::MaterialValues::density;
-  d.known_to = &plant::MaterialKnowledge::density;
-  d.material_unit = "kg/m3";
+  d.material = &plant::material_key(plant::MaterialRole::mass);
   // For the sentence of a verdict, which says what a factor means.
   d.less = "lighter";
   d.more = "heavier";

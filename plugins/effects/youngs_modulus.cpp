@@ -31,9 +31,7 @@ EffectDefinition define_youngs_modulus() {
   };
   d.speaks_for = {{"frequency", 1}, {"force_scale", 2}};
   // For the verdict, which tells the factor in pascals where the plant has one modulus.
-  d.material = &plant::MaterialValues::youngs_modulus;
-  d.known_to = &plant::MaterialKnowledge::youngs_modulus;
-  d.material_unit = "Pa";
+  d.material = &plant::material_key(plant::MaterialRole::stiffness);
   d.less = "softer";
   d.more = "stiffer";
   return d;

@@ -6,6 +6,7 @@
 
 #include "pedicel/core/check.h"
 #include "pedicel/io/yaml.h"
+#include "pedicel/plant/model/plant_model.h"
 
 namespace pedicel::plant {
 
@@ -18,13 +19,13 @@ constexpr double shortest = 1.0e-6;  // 1, fraction of the size: nearer vertices
 
 cosserat::Material read_material(const YamlNode& node) {
   YamlMap map(node, "material");
-  cosserat::Material material;
-  material.youngs_modulus = map.number("youngs_modulus", io::positive);
-  material.poisson_ratio = map.number("poisson_ratio", {-1.0, 0.5, true});
-  material.density = map.number("density", io::positive);
-  material.damping_time = map.number("damping_time", io::not_negative);
+  // A leaf has no other material to take them from.
+  MaterialValues values;
+  for (const MaterialKey& key : material_keys)
+    if (key.needed)
+      set_number_of<MaterialValues>(values, key, map.number(std::string(key.name), key.bounds));
   map.finish();
-  return material;
+  return {*values.youngs_modulus, *values.poisson_ratio, *values.density, *values.damping_time};
 }
 
 void read_vertices(const YamlNode& node, LeafTemplate& leaf) {

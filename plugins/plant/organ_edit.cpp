@@ -6,7 +6,6 @@
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_edit.h"
 #include "pedicel/plant/plant_edit_parts.h"
-#include "pedicel/plant/plant_numbers.h"
 
 namespace pedicel::plant {
 
@@ -28,10 +27,40 @@ double above_zero(const std::string& what, double value) {
   throw UsageError(what + " = " + io::format_number(value) + ", expected a number above 0");
 }
 
-double within_bounds(const PlantNumber& number, double value) {
-  if (io::within(value, number.bounds) && std::isfinite(value)) return value;
-  throw UsageError(std::string(number.name()) + " = " + io::format_number(value) + ", expected " +
-                   io::bounds_text(number.bounds));
+// A number that its owner has to have is told as one above 0, where it has no other bounds.
+template <typename Owner>
+double within_bounds(const PlantKey<Owner>& key, double value) {
+  const io::Bounds& bounds = key.bounds;
+  const bool needed = std::holds_alternative<double Owner::*>(key.member) && !key.otherwise;
+  if (needed && bounds.open_minimum && bounds.minimum == 0.0 && std::isinf(bounds.maximum))
+    return above_zero(std::string(key.name), value);
+  if (io::within(value, bounds) && std::isfinite(value)) return value;
+  throw UsageError(std::string(key.name) + " = " + io::format_number(value) + ", expected " +
+                   io::bounds_text(bounds));
+}
+
+// Every number that it has.
+template <typename Owner, typename Keys>
+void check_numbers(const Keys& keys, const Owner& owner) {
+  for (const PlantKey<Owner>& key : keys)
+    if (const auto value = number_of(owner, key)) within_bounds(key, *value);
+}
+
+// The key of a number of that name; null where there is none.
+template <typename Keys>
+auto find_number(const Keys& keys, const std::string& name) {
+  const auto* key = find_key(keys, name);
+  return key && key->is_number() ? key : nullptr;
+}
+
+// 0 takes a number away that need not be there, where 0 is none that it can be.
+template <typename Owner>
+void set_checked(Owner& owner, const PlantKey<Owner>& key, double value) {
+  const bool may_be_absent = std::holds_alternative<std::optional<double> Owner::*>(key.member);
+  if (may_be_absent && value == 0.0 && !io::within(0.0, key.bounds))
+    set_number_of(owner, key, std::nullopt);
+  else
+    set_number_of(owner, key, within_bounds(key, value));
 }
 
 void check_place(const PlantFile& plant, const CurvePlace& place) {
@@ -40,17 +69,13 @@ void check_place(const PlantFile& plant, const CurvePlace& place) {
 }
 
 void set_fruit(PlantFruit& fruit, const std::string& key, double value) {
-  if (key == "radius") {
-    fruit.radius = above_zero(key, value);
-  } else if (key == "density") {
-    fruit.density = above_zero(key, value);
-  } else if (const PlantNumber* limit = find_number_of<DetachLimits>(key)) {
-    member_of(fruit.detach, *limit) =
-        value == 0.0 ? std::nullopt : std::optional(within_bounds(*limit, value));
-  } else {
-    throw UsageError("\"" + key + "\" of a fruit, expected one of: radius, density, " +
-                     names_of_numbers<DetachLimits>());
-  }
+  if (const auto* own = find_number(fruit_keys, key))
+    set_checked(fruit, *own, value);
+  else if (const auto* limit = find_number(detach_keys, key))
+    set_checked(fruit.detach, *limit, value);
+  else
+    throw UsageError("\"" + key + "\" of a fruit, expected one of: " + number_names(fruit_keys) +
+                     ", " + number_names(detach_keys));
 }
 
 template <typename Items>
@@ -66,18 +91,15 @@ void remove_number(Items& items, int index, const std::string& what) {
 void add_fruit(PlantFile& plant, PlantFruit fruit) {
   check_free(plant, fruit.name);
   check_place(plant, fruit.place);
-  above_zero("radius", fruit.radius);
-  above_zero("density", fruit.density);
-  for_numbers_of<DetachLimits>([&](const PlantNumber& number, auto member) {
-    if (const auto& limit = fruit.detach.*member) within_bounds(number, *limit);
-  });
+  check_numbers(fruit_keys, fruit);
+  check_numbers(detach_keys, fruit.detach);
   plant.fruits.push_back(std::move(fruit));
 }
 
 void add_leaf(PlantFile& plant, PlantLeaf leaf) {
   check_free(plant, leaf.name);
   check_place(plant, leaf.place);
-  above_zero("size", leaf.size);
+  check_numbers(leaf_keys, leaf);
   if (leaf.normal.norm() < 1.0e-9) throw UsageError("a normal of length 0, expected a direction");
   plant.leaves.push_back(std::move(leaf));
 }
@@ -101,8 +123,10 @@ void set_organ(PlantFile& plant, const std::string& name, const std::string& key
   if (PlantFruit* fruit = find(plant.fruits, name)) return set_fruit(*fruit, key, value);
   PlantLeaf* leaf = find(plant.leaves, name);
   if (!leaf) no_organ(name);
-  if (key != "size") throw UsageError("\"" + key + "\" of a leaf, expected size");
-  leaf->size = above_zero(key, value);
+  const auto* own = find_number(leaf_keys, key);
+  if (!own)
+    throw UsageError("\"" + key + "\" of a leaf, expected " + number_names(leaf_keys, " or "));
+  set_checked(*leaf, *own, value);
 }
 
 void turn_leaf(PlantFile& plant, const std::string& name, const Vec3& normal,
@@ -116,7 +140,9 @@ void turn_leaf(PlantFile& plant, const std::string& name, const Vec3& normal,
 
 void add_mass(PlantFile& plant, const std::string& stem, double at, double mass) {
   check_place(plant, {stem, at, {}});
-  plant.masses.push_back({{stem, at, {}}, above_zero("mass", mass)});
+  const PlantMass one{{stem, at, {}}, mass};
+  check_numbers(mass_keys, one);
+  plant.masses.push_back(one);
 }
 
 void add_support(PlantFile& plant, const std::string& stem, double at) {
@@ -135,22 +161,23 @@ void remove_support(PlantFile& plant, int index) {
 void set_material(PlantFile& plant, const std::string& stem, const std::string& key, double value) {
   MaterialValues& material =
       stem.empty() ? plant.material : plant.curves[find_stem(plant, stem)].material;
-  const PlantNumber* number = find_number_of<MaterialValues>(key);
+  const MaterialKey* number = find_key(material_keys, key);
   if (!number)
     throw UsageError("\"" + key +
-                     "\" of a material, expected one of: " + names_of_numbers<MaterialValues>());
-  std::optional<double>& held = member_of(material, *number);
-  // 0 takes a stem's own number away, where it is none that a material can have.
-  if (!stem.empty() && value == 0.0 && !io::within(0.0, number->bounds))
-    held.reset();
+                     "\" of a material, expected one of: " + number_names(material_keys));
+  // The plant's own is needed, where a stem's may be taken away.
+  if (stem.empty())
+    set_number_of<MaterialValues>(material, *number, within_bounds<MaterialValues>(*number, value));
   else
-    held = within_bounds(*number, value);
+    set_checked<MaterialValues>(material, *number, value);
 }
 
 void set_sampling(PlantFile& plant, const std::string& key, double value) {
-  if (key != "connect" && key != "distance")
-    throw UsageError("\"" + key + "\" of the sampling, expected connect or distance");
-  (key == "connect" ? plant.connect : plant.distance) = above_zero(key, value);
+  const auto* number = find_number(sampling_keys, key);
+  if (!number)
+    throw UsageError("\"" + key + "\" of the sampling, expected " +
+                     number_names(sampling_keys, " or "));
+  set_checked(plant, *number, value);
 }
 
 }  // namespace pedicel::plant

@@ -5,6 +5,7 @@
 
 #include "pedicel/core/stop.h"
 #include "pedicel/cosserat/model/rotation.h"
+#include "pedicel/cosserat/solver/detachment.h"
 #include "pedicel/cosserat/solver/direct_solver.h"
 #include "pedicel/effects/registry/model_change.h"
 #include "pedicel/io/csv.h"
@@ -17,6 +18,10 @@ namespace {
 /// A support holds its point this many times stiffer than the segment that it holds is along its
 /// axis: it gives way by micrometres under the plant's weight.
 constexpr double support_stiffness = 100.0;
+
+// What a file says of a stalk, and what breaks it, are one list.
+static_assert(std::ranges::equal(detach_keys, cosserat::stalk_limits, {},
+                                 &PlantKey<DetachLimits>::name, &cosserat::StalkLimit::name));
 
 cosserat::Material material_of(const PlantFile& plant, const PlantCurve& curve) {
   const auto value = [&](std::optional<double> MaterialValues::*member) {
@@ -146,14 +151,9 @@ class Builder {
       fruit.back = place.back;
       fruit.radius = given.radius;
       fruit.density = given.density;
-      const auto set = [](double& limit, const std::optional<double>& value) {
-        if (value) limit = *value;
-      };
-      set(fruit.thresholds.stretch, given.detach.stretch);
-      set(fruit.thresholds.bend, given.detach.bend);
-      set(fruit.thresholds.force, given.detach.force);
-      set(fruit.thresholds.moment, given.detach.moment);
-      set(fruit.thresholds.torsion, given.detach.torsion);
+      for (std::size_t i = 0; i < cosserat::stalk_limits.size(); ++i)
+        if (const auto limit = number_of(given.detach, detach_keys[i]))
+          fruit.thresholds.*cosserat::stalk_limits[i].threshold = *limit;
       built_.model.fruits.push_back(std::move(fruit));
     }
   }

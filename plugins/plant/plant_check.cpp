@@ -4,7 +4,6 @@
 
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/plant_file.h"
-#include "pedicel/plant/plant_numbers.h"
 
 namespace pedicel::plant {
 
@@ -132,20 +131,19 @@ class Checker {
 
   // One error per value, at the first curve that lacks it: a plant without a material would repeat
   // it for every curve.
-  void check_material(const std::string& key, std::optional<double> MaterialValues::*value) {
-    if (plant_.material.*value) return;
+  void check_material(const PlantKey<MaterialValues>& key) {
+    if (number_of(plant_.material, key)) return;
     for (const PlantCurve& curve : plant_.curves) {
-      if (curve.material.*value) continue;
-      error(curve.where, quoted("curve", curve.name) + " has no " + key +
+      if (number_of(curve.material, key)) continue;
+      error(curve.where, quoted("curve", curve.name) + " has no " + std::string(key.name) +
                              ", expected it in its own material or in the plant's");
       return;
     }
   }
 
   void check_materials() {
-    for_numbers_of<MaterialValues>([&](const PlantNumber& number, auto value) {
-      check_material(std::string(number.name()), value);
-    });
+    for (const MaterialKey& key : material_keys)
+      if (key.needed) check_material(key);
   }
 
   void check_root() {

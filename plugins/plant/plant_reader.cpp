@@ -1,8 +1,10 @@
+#include <algorithm>
+#include <type_traits>
+
 #include "pedicel/io/asset_folder.h"
 #include "pedicel/io/yaml.h"
 #include "pedicel/plant/effect_reader.h"
 #include "pedicel/plant/plant_file.h"
-#include "pedicel/plant/plant_numbers.h"
 #include "pedicel/plant/plant_size.h"
 
 namespace pedicel::plant {
@@ -12,21 +14,6 @@ namespace {
 using io::YamlMap;
 using io::YamlNode;
 
-std::optional<double> optional_number(YamlMap& map, const std::string& key,
-                                      const io::Bounds& bounds) {
-  const auto node = map.optional(key);
-  if (!node) return std::nullopt;
-  return node->number(key, bounds);
-}
-
-// Every number of a group that plant_numbers() describes.
-template <typename Group>
-void read_numbers(YamlMap& map, Group& group) {
-  for_numbers_of<Group>([&](const PlantNumber& number, auto member) {
-    group.*member = optional_number(map, std::string(number.name()), number.bounds);
-  });
-}
-
 // A direction: its length does not count, but it must have one.
 Vec3 direction(const YamlNode& node, const std::string& what) {
   const Vec3 value = node.vector(what);
@@ -35,12 +22,48 @@ Vec3 direction(const YamlNode& node, const std::string& what) {
   return value;
 }
 
+// One key after the other, as its description says: those that its owner does not have are left
+// for finish() to refuse.
+template <typename Owner>
+void read_key(YamlMap& map, const PlantKey<Owner>& key, Owner& owner) {
+  const std::string name(key.name);
+  const auto read = [&](auto member) {
+    using Member = decltype(member);
+    if constexpr (std::is_same_v<Member, double Owner::*>) {
+      owner.*member = key.otherwise ? map.number(name, key.bounds, *key.otherwise)
+                                    : map.number(name, key.bounds);
+    } else if constexpr (std::is_same_v<Member, std::optional<double> Owner::*>) {
+      if (const auto node = map.optional(name)) owner.*member = node->number(name, key.bounds);
+    } else if constexpr (std::is_same_v<Member, Vec3 Owner::*>) {
+      if (const auto node = map.required(name)) owner.*member = direction(*node, name);
+    } else if constexpr (std::is_same_v<Member, std::optional<Vec3> Owner::*>) {
+      if (const auto node = map.optional(name)) owner.*member = direction(*node, name);
+    } else if constexpr (std::is_same_v<Member, std::string Owner::*>) {
+      owner.*member = map.text(name);
+    } else {
+      const std::vector<std::string> words(member.words.begin(), member.words.end());
+      const std::string word = map.choice(name, words, words.front());
+      member.set(owner, static_cast<int>(std::ranges::find(words, word) - words.begin()));
+    }
+  };
+  std::visit(read, key.member);
+}
+
+template <typename Owner, typename Keys>
+void read_keys(YamlMap& map, const Keys& keys, Owner& owner) {
+  for (const PlantKey<Owner>& key : keys)
+    if (!key.stands || key.stands(owner)) read_key(map, key, owner);
+}
+
 MaterialKnowledge read_known_to(const YamlNode& node) {
   YamlMap map(node, "known_to");
   MaterialKnowledge known;
-  known.youngs_modulus = optional_number(map, "youngs_modulus", io::positive);
-  known.density = optional_number(map, "density", io::positive);
-  known.damping_time = optional_number(map, "damping_time", io::positive);
+  for (const MaterialKey& key : material_keys) {
+    if (!key.known_to) continue;
+    const std::string name(key.name);
+    if (const auto given = map.optional(name))
+      known.*key.known_to = given->number(name, io::positive);
+  }
   map.finish();
   return known;
 }
@@ -48,7 +71,7 @@ MaterialKnowledge read_known_to(const YamlNode& node) {
 MaterialValues read_material(const YamlNode& node) {
   YamlMap map(node, "material");
   MaterialValues material;
-  read_numbers(map, material);
+  read_keys(map, material_keys, material);
   if (const auto known_to = map.optional("known_to")) material.known_to = read_known_to(*known_to);
   map.finish();
   return material;
@@ -57,17 +80,7 @@ MaterialValues read_material(const YamlNode& node) {
 SectionShape read_section(const YamlNode& node) {
   YamlMap map(node, "section");
   SectionShape section;
-  const std::string kind = map.choice("kind", {"circle", "ellipse", "rectangle"}, "circle");
-  if (kind == "ellipse") {
-    section.kind = SectionKind::ellipse;
-    section.ratio = map.number("ratio", {0.0, 1.0, true});
-  } else if (kind == "rectangle") {
-    section.kind = SectionKind::rectangle;
-    section.width = map.number("width", io::positive);
-    section.height = map.number("height", io::positive);
-  }
-  if (section.kind != SectionKind::circle)
-    if (const auto normal = map.required("normal")) section.normal = direction(*normal, "normal");
+  read_keys(map, section_keys, section);
   map.finish();
   return section;
 }
@@ -77,9 +90,7 @@ PlantCurve read_curve(const YamlNode& node) {
   PlantCurve curve;
   curve.where = node.position();
   curve.name = map.text("name");
-  curve.interpolation = map.choice("interpolation", {"smooth", "linear"}, "smooth") == "linear"
-                            ? Interpolation::linear
-                            : Interpolation::smooth;
+  read_keys(map, curve_keys, curve);
   if (const auto points = map.required("points"))
     for (const YamlNode& point : points->list("points"))
       curve.points.push_back(point.vector("point " + std::to_string(curve.points.size() + 1)));
@@ -100,7 +111,7 @@ PlantCurve read_curve(const YamlNode& node) {
 DetachLimits read_limits(const YamlNode& node) {
   YamlMap map(node, "detach");
   DetachLimits limits;
-  read_numbers(map, limits);
+  read_keys(map, detach_keys, limits);
   map.finish();
   return limits;
 }
@@ -111,8 +122,7 @@ PlantFruit read_fruit(const YamlNode& node) {
   fruit.where = node.position();
   fruit.name = map.text("name");
   fruit.place = read_place(map);
-  fruit.radius = map.number("radius", io::positive);
-  fruit.density = map.number("density", io::positive);
+  read_keys(map, fruit_keys, fruit);
   if (const auto detach = map.optional("detach")) fruit.detach = read_limits(*detach);
   map.finish();
   return fruit;
@@ -124,10 +134,7 @@ PlantLeaf read_leaf(const YamlNode& node) {
   leaf.where = node.position();
   leaf.name = map.text("name");
   leaf.place = read_place(map);
-  leaf.leaf_template = map.text("template");
-  leaf.size = map.number("size", io::positive);
-  if (const auto normal = map.required("normal")) leaf.normal = direction(*normal, "normal");
-  if (const auto along = map.optional("direction")) leaf.direction = direction(*along, "direction");
+  read_keys(map, leaf_keys, leaf);
   map.finish();
   return leaf;
 }
@@ -136,7 +143,7 @@ PlantMass read_mass(const YamlNode& node) {
   YamlMap map(node, "a mass");
   PlantMass mass;
   mass.place = read_place(map);
-  mass.mass = map.number("mass", io::positive);
+  read_keys(map, mass_keys, mass);
   map.finish();
   return mass;
 }
@@ -152,15 +159,11 @@ PlantFile read_plant(YamlMap& map) {
   PlantFile plant;
   plant.where = map.position();
   plant.name = map.text("name");
-  plant.shape =
-      map.choice("shape", {"drawn", "rest"}, "drawn") == "rest" ? Shape::rest : Shape::drawn;
-  plant.look =
-      map.choice("look", {"tomato", "apple"}, "tomato") == "apple" ? Look::apple : Look::tomato;
+  read_keys(map, plant_keys, plant);
   if (const auto material = map.optional("material")) plant.material = read_material(*material);
   if (const auto sampling = map.required("sampling")) {
     YamlMap inner(*sampling, "sampling");
-    plant.connect = inner.number("connect", number_bounds("sampling.connect"));
-    plant.distance = inner.number("distance", number_bounds("sampling.distance"));
+    read_keys(inner, sampling_keys, plant);
     inner.finish();
   }
   plant.root = map.vector("root");

@@ -1,7 +1,8 @@
+#include <type_traits>
+
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/yaml_words.h"
 #include "pedicel/plant/plant_file.h"
-#include "pedicel/plant/plant_numbers.h"
 
 namespace pedicel::plant {
 
@@ -50,45 +51,77 @@ class FlowMap {
   std::string text_;
 };
 
-/// Every number of a group that plant_numbers() describes, where it is given.
-template <typename Group>
-FlowMap numbers_map(const Group& group) {
-  FlowMap map;
-  for_numbers_of<Group>([&](const PlantNumber& number, auto member) {
-    map.add(std::string(number.name()), group.*member);
-  });
+/// What a file says of a key; nothing where it does not have to say it.
+template <typename Owner>
+std::optional<std::string> written(const PlantKey<Owner>& key, const Owner& owner) {
+  if (key.stands && !key.stands(owner)) return std::nullopt;
+  const auto write = [&](auto member) -> std::optional<std::string> {
+    using Member = decltype(member);
+    if constexpr (std::is_same_v<Member, double Owner::*>) {
+      if (key.otherwise && owner.*member == *key.otherwise) return std::nullopt;
+      return exact(owner.*member);
+    } else if constexpr (std::is_same_v<Member, std::optional<double> Owner::*>) {
+      if (!(owner.*member)) return std::nullopt;
+      return exact(*(owner.*member));
+    } else if constexpr (std::is_same_v<Member, Vec3 Owner::*>) {
+      return vector(owner.*member);
+    } else if constexpr (std::is_same_v<Member, std::optional<Vec3> Owner::*>) {
+      if (!(owner.*member)) return std::nullopt;
+      return vector(*(owner.*member));
+    } else if constexpr (std::is_same_v<Member, std::string Owner::*>) {
+      return word(owner.*member);
+    } else {
+      const int index = member.get(owner);
+      if (index == 0 && !member.always_written) return std::nullopt;
+      return std::string(member.words[static_cast<std::size_t>(index)]);
+    }
+  };
+  return std::visit(write, key.member);
+}
+
+/// Calls add(key, text) for each of the keys that a file says.
+template <typename Owner, typename Keys, typename Add>
+void write_keys(const Keys& keys, const Owner& owner, Add&& add) {
+  for (const PlantKey<Owner>& key : keys)
+    if (const auto text = written(key, owner)) add(std::string(key.name), *text);
+}
+
+template <typename Owner, typename Keys>
+FlowMap& add_keys(FlowMap& map, const Keys& keys, const Owner& owner) {
+  write_keys(keys, owner,
+             [&](const std::string& key, const std::string& text) { map.add(key, text); });
   return map;
 }
 
+/// The same, each in a line of its own.
+template <typename Owner, typename Keys>
+std::string lines_of(const std::string& indent, const Keys& keys, const Owner& owner) {
+  std::string lines;
+  write_keys(keys, owner, [&](const std::string& key, const std::string& text) {
+    lines += indent + key + ": " + text + "\n";
+  });
+  return lines;
+}
+
 FlowMap material_map(const MaterialValues& material) {
-  const FlowMap known_to = FlowMap()
-                               .add("youngs_modulus", material.known_to.youngs_modulus)
-                               .add("density", material.known_to.density)
-                               .add("damping_time", material.known_to.damping_time);
-  FlowMap map = numbers_map(material);
+  FlowMap known_to, map;
+  for (const MaterialKey& key : material_keys)
+    if (key.known_to) known_to.add(std::string(key.name), material.known_to.*key.known_to);
+  add_keys(map, material_keys, material);
   if (!known_to.empty()) map.add("known_to", known_to.text());
   return map;
 }
 
-FlowMap section_map(const SectionShape& section) {
-  FlowMap map;
-  if (section.kind == SectionKind::ellipse)
-    map.add("kind", "ellipse").add("ratio", section.ratio);
-  else
-    map.add("kind", "rectangle").add("width", section.width).add("height", section.height);
-  return map.add("normal", vector(section.normal));
-}
-
 std::string curve_text(const PlantCurve& curve) {
   std::string text = "  - name: " + word(curve.name) + "\n";
-  text += "    interpolation: ";
-  text += curve.interpolation == Interpolation::linear ? "linear\n" : "smooth\n";
+  text += lines_of("    ", curve_keys, curve);
   std::string points;
   for (const Vec3& point : curve.points) points += (points.empty() ? "" : ", ") + vector(point);
   text += "    points: [" + points + "]\n";
   if (!curve.radius.empty()) text += "    radius: " + scalar_or_list(curve.radius) + "\n";
+  FlowMap section;
   if (curve.section.kind != SectionKind::circle)
-    text += "    section: " + section_map(curve.section).text() + "\n";
+    text += "    section: " + add_keys(section, section_keys, curve.section).text() + "\n";
   const FlowMap material = material_map(curve.material);
   if (!material.empty()) text += "    material: " + material.text() + "\n";
   return text;
@@ -97,8 +130,9 @@ std::string curve_text(const PlantCurve& curve) {
 std::string fruit_text(const PlantFruit& fruit) {
   FlowMap map;
   map.add("name", word(fruit.name)).add(fruit.place);
-  map.add("radius", fruit.radius).add("density", fruit.density);
-  const FlowMap detach = numbers_map(fruit.detach);
+  add_keys(map, fruit_keys, fruit);
+  FlowMap detach;
+  add_keys(detach, detach_keys, fruit.detach);
   if (!detach.empty()) map.add("detach", detach.text());
   return map.text();
 }
@@ -106,14 +140,12 @@ std::string fruit_text(const PlantFruit& fruit) {
 std::string leaf_text(const PlantLeaf& leaf) {
   FlowMap map;
   map.add("name", word(leaf.name)).add(leaf.place);
-  map.add("template", word(leaf.leaf_template)).add("size", leaf.size);
-  map.add("normal", vector(leaf.normal));
-  if (leaf.direction) map.add("direction", vector(*leaf.direction));
-  return map.text();
+  return add_keys(map, leaf_keys, leaf).text();
 }
 
 std::string mass_text(const PlantMass& mass) {
-  return FlowMap().add(mass.place).add("mass", mass.mass).text();
+  FlowMap map;
+  return add_keys(map.add(mass.place), mass_keys, mass).text();
 }
 
 std::string support_text(const CurvePlace& place) {
@@ -146,12 +178,11 @@ std::string effect_text(const Effect& effect) {
 
 std::string plant_text(const PlantFile& plant) {
   std::string text = "format: pedicel-plant\nversion: 1\nname: " + word(plant.name) + "\n";
-  text += plant.shape == Shape::rest ? "shape: rest\n" : "shape: drawn\n";
-  if (plant.look == Look::apple) text += "look: apple\n";
+  text += lines_of("", plant_keys, plant);
   const FlowMap material = material_map(plant.material);
   if (!material.empty()) text += "material: " + material.text() + "\n";
-  text += "sampling: " +
-          FlowMap().add("connect", plant.connect).add("distance", plant.distance).text() + "\n";
+  FlowMap sampling;
+  text += "sampling: " + add_keys(sampling, sampling_keys, plant).text() + "\n";
   text += "root: " + vector(plant.root) + "\n";
   text += section_text("supports", plant.supports, support_text);
   text += "curves:\n";

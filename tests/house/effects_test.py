@@ -28,8 +28,16 @@ class PlantEffects(unittest.TestCase):
             other: '// "creep" in a comment\nif (name == "density") a = "creep and more";\nif (name == "creep") b();\n',
             Path("tests/unit/a_test.cpp"): 'effect("creep");\n',
         }
+        said = "names the effect {}; expected a field of its definition"
         self.assertEqual(plant_effects.check(texts),
-                         [(str(other), 3, "names the effect creep; expected a field of its definition")])
+                         [(str(other), 2, said.format("density")), (str(other), 3, said.format("creep"))])
+
+    def test_a_key_of_files_outside_the_diagnosis(self):
+        texts = {
+            Path("plugins/effects/density.cpp"): "",
+            Path("plugins/plant/plant_reader.cpp"): 'read("density");\n',
+        }
+        self.assertEqual(plant_effects.check(texts), [])
 
 
 if __name__ == "__main__":

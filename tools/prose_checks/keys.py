@@ -17,9 +17,7 @@ EITHER = re.compile(r"const char\* key = [^;]*\"(\w+)\" : \"(\w+)\"")
 PARAMETER = re.compile(r"\{\"(\w+)\",\s*\"[^\"]*\",\s*&s\.")
 WORD = re.compile(r"\{\"(\w+)\",\s*\{\"")
 NUMBER = re.compile(r"\{\"(\w+)\",\s*\"[^\"]*\",\s*[-\d.e]+,\s*[-\d.e]+,")
-DOTTED = re.compile(r"\{\"((?:material|detach|sampling)\.\w+)\"")
-MATERIAL = re.compile(r"\{\"material\.(\w+)\"")
-DETACH = re.compile(r"\{\"detach\.(\w+)\"")
+DESCRIBED = re.compile(r"\.name = \"(\w+)\"")
 EFFECT = re.compile(r"\bd\.name = \"(\w+)\"")
 EFFECT_NUMBER = re.compile(r"\{\.name = \"([a-z_0-9]+)\"")
 DEVIATION = re.compile(r"\{\"(\w+_std)\", &")
@@ -43,15 +41,18 @@ class Rule:
     prefix: str = ""  # of the key on the page
     end: str = r"^}$"  # line that ends a function; "": all keys of the sources are one group
     leave_out: tuple = ()
+    within: str = ""  # what a part has to hold: of a file with several lists, the one that is meant
 
 
+LISTS = r"^inline constexpr (?:PlantKey<\w+>|MaterialKey) "  # each list of keys is a part
 READER = (ASKED, NAMED, EITHER)
 RULES = [
-    Rule("plant_file.md", ("plugins/plant/plant_reader.cpp",), READER, 30),
-    Rule("plant_file.md", ("plugins/plant/plant_numbers.cpp",), (MATERIAL,), 4),
-    Rule("plant_file.md", ("plugins/plant/plant_numbers.cpp",), (DETACH,), 5),
+    Rule("plant_file.md", ("plugins/plant/plant_reader.cpp",), READER, 15),
+    Rule("plant_file.md", ("plugins/plant/model/plant_model.h",), (DESCRIBED,), 24, end=LISTS),
     Rule("plant_file.md", ("plugins/skeleton/skeleton_columns.cpp",), (TABLE_COLUMN,), 51, end=""),
-    Rule("leaf_template.md", ("plugins/plant/leaf_template.cpp",), READER, 12),
+    Rule("leaf_template.md", ("plugins/plant/leaf_template.cpp",), READER, 8),
+    Rule("leaf_template.md", ("plugins/plant/model/plant_model.h",), (DESCRIBED,), 4, end=LISTS,
+         within="&MaterialValues::"),
     Rule("scene_file.md", ("engine/world/scene_reader.cpp", "engine/world/scene_bodies.cpp",
          "engine/world/scene_common.cpp", "engine/world/scene_plants.cpp",
          "engine/world/scene_robot.cpp", "engine/world/scene_views.cpp",
@@ -72,7 +73,12 @@ RULES = [
     Rule("settings.md", ("plugins/cosserat/solver/rod_settings.cpp",), (PARAMETER,), 4),
     Rule("settings.md", ("plugins/coupling/coupling_settings.cpp",), (PARAMETER,), 8),
     Rule("settings.md", ("app/plants/rod_options.cpp",), (WORD,), 3, end=""),
-    Rule("settings.md", ("plugins/plant/plant_numbers.cpp",), (DOTTED,), 11),
+    Rule("settings.md", ("plugins/plant/model/plant_model.h",), (DESCRIBED,), 4, prefix="material.",
+         end=LISTS, within="&MaterialValues::"),
+    Rule("settings.md", ("plugins/plant/model/plant_model.h",), (DESCRIBED,), 5, prefix="detach.",
+         end=LISTS, within="&DetachLimits::"),
+    Rule("settings.md", ("plugins/plant/model/plant_model.h",), (DESCRIBED,), 2, prefix="sampling.",
+         end=LISTS, within="&PlantFile::connect"),
     Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),
     Rule("quantities.md", ("app/session/commands/session_commands.cpp",), (SCRIPT_QUANTITY,), 7),
     Rule("quantities.md", ("engine/world/recorder.cpp",), (COLUMN,), 16, end=""),
@@ -97,6 +103,8 @@ def groups(rule, root):
         text = (root / source).read_text(encoding="utf-8")
         parts = re.split(rule.end, text, flags=re.M) if rule.end else [text]
         for part in parts:
+            if not re.search(rule.within, part):
+                continue
             keys = set()
             for pattern in rule.patterns:
                 for match in pattern.findall(part):

@@ -5,7 +5,6 @@
 #include "pedicel/io/csv.h"
 #include "pedicel/plant/organ_edit.h"
 #include "pedicel/plant/plant_edit.h"
-#include "pedicel/plant/plant_numbers.h"
 
 /// Fruits, leaves, masses, supports and materials as commands: thin covers of plant/organ_edit.h.
 namespace pedicel::app {
@@ -23,18 +22,49 @@ plant::PlantFile& edited(Document& document, const Command& c) {
   return document.edit_plant(c.word("plant"));
 }
 
-std::optional<double> limit(const Command& c, const std::string& name) {
-  return c.has(name) ? std::optional(c.number(name)) : std::nullopt;
+/// The numbers that a command gives a new organ, as the plant's keys describe them.
+template <typename Owner, typename Keys>
+void take_numbers(const Command& c, const Keys& keys, Owner& owner) {
+  for (const plant::PlantKey<Owner>& key : keys) {
+    if (!key.is_number()) continue;
+    const std::string name(key.name);
+    const std::optional<double> value = c.has(name) ? std::optional(c.number(name)) : key.usual;
+    if (value) plant::set_number_of(owner, key, value);
+  }
+}
+
+/// Their descriptions: "N, at which it comes off".
+template <typename Owner, std::size_t Count>
+void add_number_arguments(std::vector<ArgumentDescription>& arguments,
+                          const plant::PlantKey<Owner> (&keys)[Count]) {
+  for (const plant::PlantKey<Owner>& key : keys) {
+    if (!key.is_number()) continue;
+    std::string sentence(key.unit == "1" ? "" : key.unit);
+    if (!key.tip.empty()) sentence += (sentence.empty() ? "" : ", ") + std::string(key.tip);
+    if (key.usual) sentence += " (" + io::format_number(*key.usual) + ")";
+    const bool needed =
+        std::holds_alternative<double Owner::*>(key.member) && !key.otherwise && !key.usual;
+    arguments.push_back({std::string(key.name), Kind::number, needed, sentence});
+  }
+}
+
+/// "youngs_modulus (Pa), poisson_ratio".
+template <typename Keys>
+std::string names_with_units(const Keys& keys) {
+  std::string text;
+  for (const auto& key : keys)
+    if (key.is_number())
+      text += (text.empty() ? "" : ", ") + std::string(key.name) +
+              (key.unit == "1" ? "" : " (" + std::string(key.unit) + ")");
+  return text;
 }
 
 void add_fruit(Document& document, const Command& c) {
   plant::PlantFruit fruit;
   fruit.name = c.word("name");
   fruit.place = {c.word("stem"), c.number("at"), {}};
-  fruit.radius = c.number("radius");
-  fruit.density = c.number_or("density", plant::usual_fruit_density);
-  fruit.detach = {limit(c, "stretch"), limit(c, "bend"), limit(c, "force"), limit(c, "moment"),
-                  limit(c, "torsion")};
+  take_numbers(c, plant::fruit_keys, fruit);
+  take_numbers(c, plant::detach_keys, fruit.detach);
   plant::add_fruit(edited(document, c), std::move(fruit));
 }
 
@@ -43,7 +73,7 @@ void add_leaf(Document& document, const Command& c) {
   leaf.name = c.word("name");
   leaf.place = {c.word("stem"), c.number("at"), {}};
   leaf.leaf_template = c.word_or("template", "tomato");
-  leaf.size = c.number("size");
+  take_numbers(c, plant::leaf_keys, leaf);
   if (c.has("normal")) leaf.normal = c.point("normal");
   if (c.has("direction")) leaf.direction = c.point("direction");
   plant::add_leaf(edited(document, c), std::move(leaf));
@@ -120,7 +150,7 @@ std::vector<CommandDescription> plant_value_commands() {
       {"set material",
        d,
        {plant_name,
-        {"key", Kind::word, true, "youngs_modulus (Pa), poisson_ratio, density, damping_time (s)"},
+        {"key", Kind::word, true, names_with_units(plant::material_keys)},
         {"value", Kind::number, true, "of the key; 0 takes a stem's own away"},
         {"stem", Kind::word, false, "one stem; left out: the plant's default"}},
        "Sets a constant of the plant's material, or of one stem's.",
@@ -133,7 +163,7 @@ std::vector<CommandDescription> plant_value_commands() {
       {"set sampling",
        d,
        {plant_name,
-        {"key", Kind::word, true, "connect or distance"},
+        {"key", Kind::word, true, plant::number_names(plant::sampling_keys, " or ")},
         {"value", Kind::number, true, "m"}},
        "Sets how near ends are joined, or how far nodes lie apart.",
        set_sampling},
@@ -159,35 +189,17 @@ std::vector<CommandDescription> plant_value_commands() {
 
 std::vector<CommandDescription> organ_commands() {
   const Scope d = Scope::document;
+  std::vector<ArgumentDescription> of_fruit{plant_name, organ_name, stem_name, place};
+  add_number_arguments(of_fruit, plant::fruit_keys);
+  add_number_arguments(of_fruit, plant::detach_keys);
+  std::vector<ArgumentDescription> of_leaf{plant_name, organ_name, stem_name, place};
+  add_number_arguments(of_leaf, plant::leaf_keys);
+  of_leaf.push_back({"template", Kind::word, false, "name of the leaf's shape (tomato)"});
+  of_leaf.push_back({"normal", Kind::point, false, "the way its upper face looks (up)"});
+  of_leaf.push_back({"direction", Kind::point, false, "the way its midrib points"});
   std::vector<CommandDescription> table = {
-      {"add fruit",
-       d,
-       {plant_name,
-        organ_name,
-        stem_name,
-        place,
-        {"radius", Kind::number, true, "m"},
-        {"density", Kind::number, false,
-         "kg/m3 (" + io::format_number(plant::usual_fruit_density) + ")"},
-        {"stretch", Kind::number, false, "strain at which it comes off"},
-        {"bend", Kind::number, false, "rad, at which it comes off"},
-        {"force", Kind::number, false, "N, at which it comes off"},
-        {"moment", Kind::number, false, "N m, at which it comes off"},
-        {"torsion", Kind::number, false, "N m, at which it comes off"}},
-       "Hangs a fruit on a stem.",
-       add_fruit},
-      {"add leaf",
-       d,
-       {plant_name,
-        organ_name,
-        stem_name,
-        place,
-        {"size", Kind::number, true, "m"},
-        {"template", Kind::word, false, "name of the leaf's shape (tomato)"},
-        {"normal", Kind::point, false, "the way its upper face looks (up)"},
-        {"direction", Kind::point, false, "the way its midrib points"}},
-       "Puts a leaf on a stem.",
-       add_leaf},
+      {"add fruit", d, of_fruit, "Hangs a fruit on a stem.", add_fruit},
+      {"add leaf", d, of_leaf, "Puts a leaf on a stem.", add_leaf},
       {"move organ",
        d,
        {plant_name, organ_name, stem_name, place},
@@ -199,7 +211,8 @@ std::vector<CommandDescription> organ_commands() {
        {plant_name,
         organ_name,
         {"key", Kind::word, true,
-         "radius, density, stretch, bend, force, moment, torsion of a fruit; size of a leaf"},
+         plant::number_names(plant::fruit_keys) + ", " + plant::number_names(plant::detach_keys) +
+             " of a fruit; " + plant::number_names(plant::leaf_keys) + " of a leaf"},
         {"value", Kind::number, true, "of the key; a threshold of 0 is none"}},
        "Sets a number of a fruit or leaf.",
        set_organ},

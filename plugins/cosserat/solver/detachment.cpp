@@ -13,39 +13,30 @@ namespace {
 // step then minimises one smooth potential, and a stalk cannot break at an iterate that the plant
 // never reaches. What breaks bears its load for the rest of that step.
 struct Margins {
-  double stretch, bend, force, moment, torsion;  // as in DetachEvent
-  double used = 0.0;                             // largest ratio to a threshold
-  const char* cause = "";
+  StalkNumbers carried;
+  double used = 0.0;  // largest ratio to a threshold
+  std::string_view cause = "";
 };
 
 Margins margins(const RodModel& model, const RodState& state, const Fruit& fruit) {
-  // Strains are from the unloaded shape, as the paper's are. A stalk that hangs under its own fruit
-  // has therefore used a part of its limit before anything pulls.
-  const Strain strain = strain_of(model, state, fruit.element);
-  const JointLoad load = joint_load(model, state, fruit.element);
-  Margins m{strain.stretch.norm(), strain.bend.norm(), load.force.norm(),
-            load.moment.head<2>().norm(), std::abs(load.moment.z())};
+  Margins m{stalk_numbers(model, state, fruit.element)};
   if (fruit.law) {
     // A scale that was left out is infinite: its ratio is 0, and it takes no part. The sum reaches
     // 1 where the stalk breaks, so that laws and thresholds report the same kind of number.
-    m.used = std::pow(m.force / fruit.law->force, fruit.law->exponents[0]) +
-             std::pow(m.moment / fruit.law->moment, fruit.law->exponents[1]) +
-             std::pow(m.torsion / fruit.law->torsion, fruit.law->exponents[2]);
+    m.used = std::pow(m.carried[stalk_force] / fruit.law->force, fruit.law->exponents[0]) +
+             std::pow(m.carried[stalk_moment] / fruit.law->moment, fruit.law->exponents[1]) +
+             std::pow(m.carried[stalk_torsion] / fruit.law->torsion, fruit.law->exponents[2]);
     m.cause = "law";
     return m;
   }
   // Thresholds are one by one: the largest ratio counts, and names the cause. Strains stand before
   // loads, and only a larger ratio replaces an earlier one, so that a tie keeps the paper's own
   // criterion.
-  const Thresholds& t = fruit.thresholds;
-  const std::array<std::pair<double, const char*>, 5> ratios = {
-      std::pair(m.stretch / t.stretch, "stretch"), std::pair(m.bend / t.bend, "bend"),
-      std::pair(m.force / t.force, "force"), std::pair(m.moment / t.moment, "moment"),
-      std::pair(m.torsion / t.torsion, "torsion")};
-  for (const auto& [ratio, cause] : ratios) {
+  for (std::size_t i = 0; i < stalk_limits.size(); ++i) {
+    const double ratio = m.carried[i] / (fruit.thresholds.*stalk_limits[i].threshold);
     if (ratio <= m.used) continue;
     m.used = ratio;
-    m.cause = cause;
+    m.cause = stalk_limits[i].name;
   }
   return m;
 }
@@ -75,11 +66,8 @@ DetachEvent record(const RodModel& model, const RodState& state, int index, cons
   event.time = state.time;
   event.fruit = index;
   event.cause = m.cause;
-  event.stretch = m.stretch;
-  event.bend = m.bend;
-  event.force = m.force;
-  event.moment = m.moment;
-  event.torsion = m.torsion;
+  for (std::size_t i = 0; i < stalk_limits.size(); ++i)
+    event.*stalk_limits[i].at_break = m.carried[i];
   const Vec3 axis = q * Vec3::UnitZ();
   // Without a sign: a stalk that hangs straight down and one that stands straight up are both at 0.
   // Rounding may push the cosine of either above 1, whose arc cosine is no number.
@@ -113,6 +101,15 @@ void lighten(RodModel& model, RodState& state, int e) {
 }
 
 }  // namespace
+
+StalkNumbers stalk_numbers(const RodModel& model, const RodState& state, int element) {
+  // Strains are from the unloaded shape, as the paper's are. A stalk that hangs under its own fruit
+  // has therefore used a part of its limit before anything pulls.
+  const Strain strain = strain_of(model, state, element);
+  const JointLoad load = joint_load(model, state, element);
+  return {strain.stretch.norm(), strain.bend.norm(), load.force.norm(),
+          load.moment.head<2>().norm(), std::abs(load.moment.z())};
+}
 
 double margin_used(const RodModel& model, const RodState& state, int fruit) {
   if (state.fruit_gone[fruit]) return 0.0;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pedicel/cosserat/model/rod_state.h"
@@ -29,6 +31,30 @@ struct DetachEvent {
   double stub_length = 0.0;                ///< m, of the stalk's stub that goes with it; 0: none
   double stub_radius = 0.0;                ///< m
 };
+
+/// What can break a stalk, by its place in stalk_limits. The first two are strains from the
+/// unloaded shape, as the paper's are; loads follow.
+enum StalkLoad { stalk_stretch, stalk_bend, stalk_force, stalk_moment, stalk_torsion };
+
+/// One of them: its name as files and events say it, and where its threshold and its value at the
+/// break are kept. Plant files, events, break laws and diagnoses walk the list.
+struct StalkLimit {
+  std::string_view name, unit;
+  double Thresholds::*threshold;
+  double DetachEvent::*at_break;
+};
+inline constexpr std::array stalk_limits = {
+    StalkLimit{"stretch", "1", &Thresholds::stretch, &DetachEvent::stretch},
+    StalkLimit{"bend", "rad", &Thresholds::bend, &DetachEvent::bend},
+    StalkLimit{"force", "N", &Thresholds::force, &DetachEvent::force},
+    StalkLimit{"moment", "N m", &Thresholds::moment, &DetachEvent::moment},
+    StalkLimit{"torsion", "N m", &Thresholds::torsion, &DetachEvent::torsion}};
+static_assert(stalk_limits[stalk_torsion].name == "torsion");
+
+/// One number a limit, in the units of stalk_limits.
+using StalkNumbers = std::array<double, stalk_limits.size()>;
+/// What the joint at the near end of an element carries.
+StalkNumbers stalk_numbers(const RodModel& model, const RodState& state, int element);
 
 /// Checks the thresholds of every fruit that is still on and takes those off that pass one: at a
 /// tip the element dies with its fruit, elsewhere the element only gets lighter. Appends to

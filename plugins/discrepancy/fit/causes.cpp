@@ -48,7 +48,11 @@ Hypothesis junction_nuisance(const Experiment& experiment, const Evidence& evide
   Diagnostics diagnostics;
   const auto built = plant::build_plant(experiment.plant, {}, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
+  const auto& known = effects::effect_definitions();
+  const auto spring = std::ranges::find_if(
+      known, [](const effects::EffectDefinition& one) { return one.at_junction != nullptr; });
   Hypothesis all;
+  if (spring == known.end()) return all;
   std::vector<char> seen(experiment.plant.curves.size(), 0);
   for (const plant::BuiltPlant::Span& span : built->spans) {
     const cosserat::Element& element = built->model.elements[span.element];
@@ -56,10 +60,7 @@ Hypothesis junction_nuisance(const Experiment& experiment, const Evidence& evide
     const cosserat::Section& section = element.section;
     const double softest =
         (section.bend1 + section.bend2) / (evidence.most_discretisation * element.length);
-    all.add(effects::Start("attachment_compliance")
-                .place(experiment.plant.curves[span.curve].name, 0.0)
-                .positive("stiffness", 4.0 * softest, softest, 1e3 * softest)
-                .prior(2.0, 8.0 * softest));
+    all.add(spring->at_junction(experiment.plant.curves[span.curve].name, softest));
   }
   all.name.clear();
   return all;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pedicel/core/check.h"
 #include "pedicel/discrepancy/fit/bounded_solve.h"
 #include "pedicel/discrepancy/simulate/differences.h"
 
@@ -166,16 +167,27 @@ PriorRows prior_rows(const FitSummary& model) {
   return rows;
 }
 
+const Shift::Names& Shift::names() {
+  static const Names all = [] {
+    Names names;
+    const auto& factors = effects::material_factors();
+    PEDICEL_ASSERT(factors.size() == names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = factors[i]->name;
+    return names;
+  }();
+  return all;
+}
+
 void Shift::add(double share, const Shift& other) {
-  for (std::size_t i = 0; i < names.size(); ++i) logarithm[i] += share * other.logarithm[i];
+  for (std::size_t i = 0; i < count; ++i) logarithm[i] += share * other.logarithm[i];
 }
 
 void Shift::apply(Variant& variant) const {
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     if (logarithm[i] == 0.0) continue;
-    auto found = std::ranges::find(variant.effects, names[i], &plant::Effect::name);
+    auto found = std::ranges::find(variant.effects, names()[i], &plant::Effect::name);
     if (found == variant.effects.end()) {
-      variant.effects.push_back({names[i], {}, {{"factor", {1.0}}}, {}, {}});
+      variant.effects.push_back({names()[i], {}, {{"factor", {1.0}}}, {}, {}});
       found = variant.effects.end() - 1;
     }
     found->numbers["factor"][0] *= std::exp(logarithm[i]);

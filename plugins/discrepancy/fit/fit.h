@@ -44,10 +44,12 @@ struct PriorRows {
 };
 PriorRows prior_rows(const FitSummary& model);
 
-/// Logarithms of factors on modulus, density and damping time.
+/// Logarithms of factors on the numbers of the material: modulus, density and damping time.
 struct Shift {
-  static constexpr std::array names{"youngs_modulus", "density", "damping_time"};
-  std::array<double, 3> logarithm{};
+  static constexpr int count = plant::count_roles();
+  using Names = std::array<std::string, count>;
+  static const Names& names();  ///< of the factors' effects
+  std::array<double, count> logarithm{};
   void add(double share, const Shift& other);
   /// Multiplies the factors of a variant, which are 1 where it has none.
   void apply(Variant& variant) const;

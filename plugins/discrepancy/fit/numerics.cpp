@@ -92,9 +92,10 @@ class Comparison {
     check.by_mesh = rms(projected_out(base_.jacobian, by_mesh), samples);
     check.parameter_shift = believable_step(base_, by_step + by_mesh);
     for (int p = 0; p < check.parameter_shift.size(); ++p)
-      for (std::size_t i = 0; i < Shift::names.size(); ++i) {
+      for (std::size_t i = 0; i < Shift::count; ++i) {
         const FreeParameter& free = base_.hypothesis.free[p];
-        if (free.name == "factor" && base_.hypothesis.effects[free.effect].name == Shift::names[i])
+        if (free.name == "factor" &&
+            base_.hypothesis.effects[free.effect].name == Shift::names()[i])
           check.parameter_shift[p] += made_.own.shift.logarithm[i];
       }
     check.correction = projected_out(base_.jacobian, by_step + by_mesh);

@@ -31,8 +31,9 @@ struct Nominal {
 Nominal nominal(const plant::MaterialValues& material, const std::string& effect,
                 const FreeParameter& free) {
   const effects::EffectDefinition* known = effects::find_effect(effect);
-  if (known && known->material && material.*known->material)
-    return {*(material.*known->material), known->material_unit};
+  const auto own =
+      known && known->material ? plant::number_of(material, *known->material) : std::nullopt;
+  if (own) return {*own, std::string(known->material->unit)};
   return {1.0, free.unit.empty() ? "1" : free.unit};
 }
 

@@ -45,6 +45,14 @@ plant::CurvePlace parse_place(const std::string& word, const std::string& text,
   return place;
 }
 
+// "youngs_modulus, density, damping_time".
+std::string factor_names() {
+  std::string names;
+  for (const effects::EffectDefinition* one : effects::material_factors())
+    names += (names.empty() ? "" : ", ") + one->name;
+  return names;
+}
+
 Word parse(const std::string& text, const Experiment& experiment) {
   Word word;
   word.text = text;
@@ -65,9 +73,7 @@ Word parse(const std::string& text, const Experiment& experiment) {
       std::ranges::any_of(base.effects, [&](const auto& e) { return e.name == word.effect; });
   const effects::EffectDefinition* kind = effects::find_effect(word.effect);
   if (!kind || (dot == std::string::npos && !material))
-    refuse(text,
-           "expected youngs_modulus, density, damping_time, or EFFECT.PARAMETER of a known "
-           "effect");
+    refuse(text, "expected " + factor_names() + ", or EFFECT.PARAMETER of a known effect");
   const bool moves = kind->needs_place && word.parameter == "at";
   std::string known;
   for (const effects::EffectParameter& p : kind->parameters)

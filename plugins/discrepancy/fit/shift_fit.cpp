@@ -37,12 +37,12 @@ ShiftFit::ShiftFit(Simulator& simulator, const DataSet& data, const Hypothesis& 
                    const Shift& own, const FitOptions& options)
     : data_(data), options_(options) {
   const double step = options.settings->accuracy.shift_step;
-  std::vector<Shift> shifts(Shift::names.size() + 1, own);
-  for (std::size_t i = 0; i < Shift::names.size(); ++i) shifts[i + 1].logarithm[i] += step;
+  std::vector<Shift> shifts(Shift::count + 1, own);
+  for (std::size_t i = 0; i < Shift::count; ++i) shifts[i + 1].logarithm[i] += step;
   std::vector<Predictions> moved = run_shifted(simulator, model, shifts);
   now_ = std::move(moved.front());
-  by_parameter_.resize(data.size(options.trials), static_cast<Eigen::Index>(Shift::names.size()));
-  for (std::size_t i = 0; i < Shift::names.size(); ++i)
+  by_parameter_.resize(data.size(options.trials), Shift::count);
+  for (std::size_t i = 0; i < Shift::count; ++i)
     by_parameter_.col(static_cast<Eigen::Index>(i)) = change(moved[i + 1], now_) / step;
 }
 
@@ -62,12 +62,13 @@ Eigen::VectorXd ShiftFit::change(const Predictions& to, const Predictions& from)
 
 Shift ShiftFit::stands_for(const Predictions& to, const Predictions& from) const {
   const double usual = options_.settings->accuracy.usual_shift;
-  const Eigen::Matrix3d information =
-      by_parameter_.transpose() * by_parameter_ + Eigen::Matrix3d::Identity() / (usual * usual);
-  const Eigen::Vector3d found =
+  using Square = Eigen::Matrix<double, Shift::count, Shift::count>;
+  const Square information =
+      by_parameter_.transpose() * by_parameter_ + Square::Identity() / (usual * usual);
+  const Eigen::Vector<double, Shift::count> found =
       information.ldlt().solve(by_parameter_.transpose() * change(to, from));
   Shift shift;
-  for (int i = 0; i < 3; ++i) shift.logarithm[i] = found[i];
+  for (int i = 0; i < Shift::count; ++i) shift.logarithm[i] = found[i];
   return shift;
 }
 

@@ -57,8 +57,8 @@ double known_to(const Findings& findings, const std::string& name) {
   const effects::EffectDefinition* known = effects::find_effect(name);
   double widest = 0.0;
   const auto look = [&](const plant::MaterialValues& material) {
-    if (known && known->known_to)
-      widest = std::max(widest, (material.known_to.*known->known_to).value_or(0.0));
+    if (known && known->material)
+      widest = std::max(widest, plant::stated_knowledge(material, *known->material));
   };
   // The widest that any part states: a factor is on all of them, and a curve that is hardly known
   // may explain it.
@@ -370,7 +370,7 @@ double scatter(const Findings& findings, const std::vector<int>& trials) {
 
 bool knows_parameters(const Findings& findings, const FitSummary& model) {
   constexpr double certain = 3.0;  // deviations
-  return std::ranges::all_of(Shift::names, [&](const char* name) {
+  return std::ranges::all_of(Shift::names(), [&](const std::string& name) {
     const int p = model.hypothesis.factor_on(name);
     if (p < 0) return true;
     const double u = std::log(model.hypothesis.value(p));
@@ -495,14 +495,13 @@ void conclude_detachment(Diagnosis& diagnosis) {
   plant::Effect effect;
   effect.name = cause.name;
   const BreakLaw& law = strength.law->law;
-  const std::array names{"force", "moment", "torsion"};
-  const std::array units{"N", "N m", "N m"};
-  for (int i = 0; i < 3; ++i) {
-    const double scale = law.scale[stalk_force + i];
+  for (int i = stalk_force; i < stalk_load_count; ++i) {
+    const double scale = law.scale[i];
     if (!std::isfinite(scale)) continue;
-    const double factor = std::exp(interval95 * strength.law->error[stalk_force + i]);
-    cause.parameters[names[i]] = {{scale, scale / factor, scale * factor, units[i]}};
-    effect.numbers[names[i]] = {scale};
+    const double factor = std::exp(interval95 * strength.law->error[i]);
+    const std::string name(stalk_limits[i].name), unit(stalk_limits[i].unit);
+    cause.parameters[name] = {{scale, scale / factor, scale * factor, unit}};
+    effect.numbers[name] = {scale};
   }
   const Estimate exponent{law.exponent, law.exponent, law.exponent, "1"};
   cause.parameters["exponents"] = {exponent, exponent, exponent};
@@ -524,11 +523,12 @@ void report_parameters(const Findings& findings, Diagnosis& diagnosis) {
     const std::string& effect = fit.hypothesis.effects[free.effect].name;
     const effects::EffectDefinition* known = effects::find_effect(effect);
     // Curves with moduli of their own have no single value to tell.
-    if (!known || !known->material || !(material.*known->material)) continue;
-    const double value = *(material.*known->material);
+    const auto own =
+        known && known->material ? plant::number_of(material, *known->material) : std::nullopt;
+    if (!own) continue;
     Estimate estimate = findings.estimate(fit, p);
-    for (double* x : {&estimate.value, &estimate.low, &estimate.high}) *x *= value;
-    estimate.unit = known->material_unit;
+    for (double* x : {&estimate.value, &estimate.low, &estimate.high}) *x *= *own;
+    estimate.unit = known->material->unit;
     diagnosis.verdict.parameters[effect] = estimate;
   }
 }

@@ -22,10 +22,11 @@ void report_ratios(const Findings& findings, Diagnosis& diagnosis) {
   const FitSummary& fit = diagnosis.best;
   if (fit.jacobian.cols() != fit.hypothesis.size()) return;
   const Eigen::MatrixXd c = covariance(fit);
-  for (std::size_t i = 0; i < Shift::names.size(); ++i)
-    for (std::size_t k = i + 1; k < Shift::names.size(); ++k) {
-      const int a = fit.hypothesis.factor_on(Shift::names[i]);
-      const int b = fit.hypothesis.factor_on(Shift::names[k]);
+  const Shift::Names& names = Shift::names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t k = i + 1; k < names.size(); ++k) {
+      const int a = fit.hypothesis.factor_on(names[i]);
+      const int b = fit.hypothesis.factor_on(names[k]);
       if (a < 0 || b < 0) continue;
       // The unknowns are logarithms of factors.
       const double each = std::sqrt(std::min(c(a, a), c(b, b)));
@@ -33,8 +34,8 @@ void report_ratios(const Findings& findings, Diagnosis& diagnosis) {
       if (!(each > loose) || both > closely * each) continue;
       const double value = fit.hypothesis.value(a) / fit.hypothesis.value(b);
       const double error = std::exp(interval95 * both * findings.spread(fit));
-      diagnosis.verdict.ratios[std::string(Shift::names[i]) + "/" + Shift::names[k]] = {
-          value, value / error, value * error, "1"};
+      diagnosis.verdict.ratios[names[i] + "/" + names[k]] = {value, value / error, value * error,
+                                                             "1"};
     }
 }
 

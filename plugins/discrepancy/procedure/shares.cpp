@@ -41,7 +41,7 @@ std::optional<Hypothesis> less(const Hypothesis& model, const std::string& cause
 
 // Modulus, density and damping that are no causes do not stand in for the cause that is taken out.
 void hold_what_is_no_cause(const std::vector<NamedCause>& causes, Hypothesis& model) {
-  for (const char* name : Shift::names) {
+  for (const std::string& name : Shift::names()) {
     const int p = model.factor_on(name);
     // Free, a modulus would take up what a weak segment did, and the segment's share would be
     // nearly nothing.

@@ -37,7 +37,7 @@ Hypothesis carried(const plant::PlantFile& extended) {
 
 std::vector<std::pair<std::string, double>> factors(const Hypothesis& model) {
   std::vector<std::pair<std::string, double>> found;
-  for (const char* name : Shift::names)
+  for (const std::string& name : Shift::names())
     if (const int p = model.factor_on(name); p >= 0) found.emplace_back(name, model.value(p));
   return found;
 }

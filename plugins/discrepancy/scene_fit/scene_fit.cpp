@@ -232,16 +232,26 @@ SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
   return result;
 }
 
+namespace {
+
+effects::Start factor_start(const effects::EffectDefinition& factor,
+                            const SceneFitSettings& known) {
+  effects::Start start(factor.name);
+  if (factor.material->role == plant::MaterialRole::damping)
+    return start.positive("factor", 1.0, 0.02, 50.0).prior(known.damping_prior, 1.0);
+  start.positive("factor", 1.0, 0.1, 10.0);
+  // The wide prior of density: what swings freely shows modulus over density alone.
+  if (factor.material->role == plant::MaterialRole::mass) start.prior(known.density_prior, 1.0);
+  return start;
+}
+
+}  // namespace
+
 Hypothesis scene_baseline(const SceneExperiment& experiment, const SceneSettings& settings) {
   const SceneFitSettings& known = settings.fit;
   Hypothesis baseline;
-  // The wide prior of density: what swings freely shows modulus over density alone.
-  baseline.add(effects::Start("youngs_modulus").positive("factor", 1.0, 0.1, 10.0));
-  baseline.add(
-      effects::Start("density").positive("factor", 1.0, 0.1, 10.0).prior(known.density_prior, 1.0));
-  baseline.add(effects::Start("damping_time")
-                   .positive("factor", 1.0, 0.02, 50.0)
-                   .prior(known.damping_prior, 1.0));
+  for (const effects::EffectDefinition* one : effects::material_factors())
+    baseline.add(factor_start(*one, known));
   for (const SceneFit& own : baseline_effects({experiment, settings})) {
     Hypothesis added;
     added.effects = {own.effect};

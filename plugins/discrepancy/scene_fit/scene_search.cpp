@@ -37,20 +37,18 @@ std::vector<std::string> moved(const SceneFitResult& fit, const SceneSearchSetti
 }
 
 // Damping is what solvers differ by most, and density is seen through little but weight.
-double allowance(const std::string& name, const SceneSearchSettings& how) {
-  return name == "damping_time" ? how.damping_known_to
-         : name == "density"    ? how.density_known_to
-                                : how.modulus_known_to;
+double allowance(const plant::MaterialKey& number, const SceneSearchSettings& how) {
+  return number.role == plant::MaterialRole::damping ? how.damping_known_to
+         : number.role == plant::MaterialRole::mass  ? how.density_known_to
+                                                     : how.modulus_known_to;
 }
 
 // 1, relative: how well a plant's file says it knows a number of its material; 0: it does not say.
-double stated_of(const SceneExperiment& experiment, const std::string& name) {
-  const effects::EffectDefinition* known = effects::find_effect(name);
+double stated_of(const SceneExperiment& experiment, const plant::MaterialKey& number) {
   double most = 0.0;
+  // The largest of several plants: a factor is on all of them.
   for (const ScenePlantFile& plant : experiment.plants)
-    // The largest of several plants: a factor is on all of them.
-    if (known && known->known_to)
-      most = std::max(most, (plant.file.material.known_to.*(known->known_to)).value_or(0.0));
+    most = std::max(most, plant::stated_knowledge(plant.file.material, number));
   return most;
 }
 
@@ -396,14 +394,14 @@ class Search {
   // Numbers beside the causes that left what is known of them.
   std::vector<std::string> material_of(const SceneFitResult& fit) const {
     std::vector<std::string> names;
-    for (const char* name : {"youngs_modulus", "density", "damping_time"}) {
-      const int p = fit.model.factor_on(name);
+    for (const effects::EffectDefinition* one : effects::material_factors()) {
+      const int p = fit.model.factor_on(one->name);
       if (p < 0) continue;
       const double off = std::log(fit.model.value(p));
-      const double error =
-          std::hypot(fit.standard_error[p], allowance(name, how_), stated_of(experiment_, name));
+      const double error = std::hypot(fit.standard_error[p], allowance(*one->material, how_),
+                                      stated_of(experiment_, *one->material));
       // In logarithms: a factor of two and one of a half are equally far off.
-      if (std::abs(off) > how_.named_deviations * error) names.push_back(name);
+      if (std::abs(off) > how_.named_deviations * error) names.push_back(one->name);
     }
     for (const std::string& name : moved(fit, how_)) names.push_back(name);
     return names;

@@ -116,23 +116,24 @@ class Conclusion {
   // In the units of the file, where the scene has one material; else as factors.
   void set_parameters() {
     const SceneFitResult& model = found_.model();
-    for (const char* name : {"youngs_modulus", "density", "damping_time"}) {
+    for (const effects::EffectDefinition* known : effects::material_factors()) {
+      const std::string& name = known->name;
       const int p = model.model.factor_on(name);
       // A fit that was stopped before its first step has no errors yet.
       if (p < 0 || p >= model.standard_error.size()) continue;
       const Estimate factor = estimate_of(model, p);
-      const effects::EffectDefinition* known = effects::find_effect(name);
       // A factor is on all plants of a scene. With two files there are two moduli, and no single
       // number to tell.
-      const bool one = experiment_.plants.size() == 1 && known && known->material &&
-                       experiment_.plants.front().file.material.*(known->material);
-      if (!one) {
-        v_.parameters[std::string(name) + "_factor"] = factor;
+      const auto own =
+          experiment_.plants.size() == 1
+              ? plant::number_of(experiment_.plants.front().file.material, *known->material)
+              : std::nullopt;
+      if (!own) {
+        v_.parameters[name + "_factor"] = factor;
         continue;
       }
-      const double own = *(experiment_.plants.front().file.material.*(known->material));
-      v_.parameters[name] = {own * factor.value, own * factor.low, own * factor.high,
-                             known->material_unit};
+      v_.parameters[name] = {*own * factor.value, *own * factor.low, *own * factor.high,
+                             std::string(known->material->unit)};
     }
     set_baseline_effects(model);
   }

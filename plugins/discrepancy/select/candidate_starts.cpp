@@ -9,6 +9,8 @@
 
 namespace pedicel::discrepancy {
 
+using plant::MaterialRole;
+
 namespace {
 
 constexpr double no_change = 1.0e-12;  // a direction without length
@@ -148,8 +150,8 @@ Eigen::VectorXd allowed_step(const FitSummary& model, const Eigen::VectorXd& wan
   }
   // Along the valley of a free vibration the data hold nothing: there it ends where density is no
   // longer believed.
-  const int modulus = model.hypothesis.factor_on("youngs_modulus"),
-            density = model.hypothesis.factor_on("density");
+  const int modulus = model.hypothesis.factor_on(MaterialRole::stiffness),
+            density = model.hypothesis.factor_on(MaterialRole::mass);
   if (modulus < 0 || density < 0) return step;
   const double most = settings.levels.believed * model.hypothesis.free[density].width();
   const double beyond = step[density] - std::clamp(step[density], -most, most);
@@ -166,7 +168,7 @@ std::optional<Hypothesis> twin_of(const Hypothesis& fitted) {
   Hypothesis twin = fitted;
   double ratio = 1.0;
   twin.effects[last] = known->twin(fitted.effects[last], ratio);
-  const int modulus = fitted.factor_on("youngs_modulus");
+  const int modulus = fitted.factor_on(MaterialRole::stiffness);
   if (modulus >= 0) twin.set_value(modulus, ratio * fitted.value(modulus));
   return twin.bounded();
 }

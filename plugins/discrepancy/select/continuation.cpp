@@ -7,6 +7,8 @@
 
 namespace pedicel::discrepancy {
 
+using plant::MaterialRole;
+
 namespace {
 
 constexpr double no_change = 1.0e-12;
@@ -93,7 +95,8 @@ bool conflicts_with_prior(const FitSummary& model, const DiagnosisSettings& sett
   const Hypothesis& numbers = model.hypothesis;
   return (way_of(numbers, settings.levels.prior_conflict).array() != 0.0).any() ||
          std::ranges::any_of(model.at_bound, [&](int p) {
-           return p == numbers.factor_on("youngs_modulus") || p == numbers.factor_on("density");
+           return p == numbers.factor_on(MaterialRole::stiffness) ||
+                  p == numbers.factor_on(MaterialRole::mass);
          });
 }
 

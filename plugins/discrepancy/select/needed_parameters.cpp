@@ -8,6 +8,8 @@
 
 namespace pedicel::discrepancy {
 
+using plant::MaterialRole;
+
 namespace {
 
 // At its nominal value for good.
@@ -36,12 +38,13 @@ bool is_refuted(Evaluator& evaluator, const NeededParameters& needed, FitOptions
 
 // Density in place of modulus, or the other way round, so that a free swing stays as it is.
 std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& model) {
-  const int modulus = model.hypothesis.factor_on("youngs_modulus"),
-            density = model.hypothesis.factor_on("density");
+  const int modulus = model.hypothesis.factor_on(MaterialRole::stiffness),
+            density = model.hypothesis.factor_on(MaterialRole::mass);
   // Both are free, or none is: nothing to exchange.
   if ((modulus < 0) == (density < 0)) return {};
   const int needed = std::max(modulus, density);
-  const char* other = modulus < 0 ? "youngs_modulus" : "density";
+  const std::string& other =
+      effects::material_factor(modulus < 0 ? MaterialRole::stiffness : MaterialRole::mass).name;
   const int from = base.hypothesis.factor_on(other);
   if (from < 0) return {};
   Hypothesis instead = without(model.hypothesis, needed);
@@ -51,6 +54,17 @@ std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& mode
   instead.set_value(instead.size() - 1, 1.0 / model.hypothesis.value(needed));
   instead.name = other;
   return {instead};
+}
+
+// The modulus last: where either of two would do, it is the one that people know least.
+std::vector<std::string> in_order_of_doubt() {
+  std::vector<const effects::EffectDefinition*> all = effects::material_factors();
+  std::ranges::stable_partition(all, [](const effects::EffectDefinition* one) {
+    return one->material->role != MaterialRole::stiffness;
+  });
+  std::vector<std::string> names;
+  for (const effects::EffectDefinition* one : all) names.push_back(one->name);
+  return names;
 }
 
 // A law in place of more of the number that it stands for, such as a law of damping in place of
@@ -85,8 +99,7 @@ NeededParameters needed_parameters(Evaluator& evaluator, const FitSummary& base,
   const double needed_cost = 0.5 * deviations * deviations;
   NeededParameters needed;
   needed.model = base;
-  // The modulus last: where either of two would do, it is the one that people know least.
-  for (const char* name : {"density", "damping_time", "youngs_modulus"}) {
+  for (const std::string& name : in_order_of_doubt()) {
     const int p = needed.model.hypothesis.factor_on(name);
     if (p < 0) continue;
     // Refitted and not judged by standard errors: of two that do nearly the same, both have wide

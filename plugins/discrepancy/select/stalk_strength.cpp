@@ -404,20 +404,18 @@ double BreakLaw::most(const StalkLoads& stalk, double until) const {
 
 BreakLaw break_law_of(const plant::PlantFile& plant, const plant::PlantFruit& fruit) {
   BreakLaw law;
-  const std::array limits{fruit.detach.stretch, fruit.detach.bend, fruit.detach.force,
-                          fruit.detach.moment, fruit.detach.torsion};
   // What the file leaves out stays infinite, and never breaks anything.
   for (int i = 0; i < stalk_load_count; ++i)
-    if (limits[i]) law.scale[i] = *limits[i];
+    if (const auto limit = number_of(fruit.detach, plant::detach_keys[i])) law.scale[i] = *limit;
   for (const plant::Effect& effect : plant.effects) {
     const effects::EffectDefinition* known = effects::find_effect(effect.name);
     const bool meant = !effect.place || effect.place->curve == fruit.place.curve;
     if (!known || known->home != effects::Home::stalk || !meant) continue;
     // A law takes the place of all thresholds of its fruits, as it does in a simulation.
     law = BreakLaw();
-    const std::array names{"force", "moment", "torsion"};
-    for (int i = 0; i < 3; ++i)
-      if (effect.numbers.contains(names[i])) law.scale[stalk_force + i] = effect.number(names[i]);
+    for (int i = stalk_force; i < stalk_load_count; ++i)
+      if (const std::string name(stalk_limits[i].name); effect.numbers.contains(name))
+        law.scale[i] = effect.number(name);
     const auto own = effect.numbers.find("exponents");
     law.exponent = own == effect.numbers.end()
                        ? 2.0

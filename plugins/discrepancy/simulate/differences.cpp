@@ -4,6 +4,8 @@
 
 namespace pedicel::discrepancy {
 
+using plant::MaterialRole;
+
 namespace {
 
 // Noise units. In a narrow valley two columns that are alike but for a hundredth are compared, and
@@ -17,8 +19,8 @@ constexpr double first_size = 0.01, least_size = 1.0e-6, most_size = 0.05;
 
 Differences::Differences(const Hypothesis& model)
     : model_(model),
-      modulus_(model.factor_on("youngs_modulus")),
-      density_(model.factor_on("density")),
+      modulus_(model.factor_on(MaterialRole::stiffness)),
+      density_(model.factor_on(MaterialRole::mass)),
       directions_(Eigen::MatrixXd::Identity(model.size(), model.size())),
       size_(Eigen::VectorXd::Constant(model.size(), first_size)),
       step_(size_) {

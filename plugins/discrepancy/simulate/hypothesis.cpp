@@ -62,6 +62,10 @@ int Hypothesis::factor_on(const std::string& parameter) const {
   return -1;
 }
 
+int Hypothesis::factor_on(plant::MaterialRole role) const {
+  return factor_on(effects::material_factor(role).name);
+}
+
 Variant Hypothesis::variant() const {
   Variant variant;
   for (const plant::Effect& effect : effects) {

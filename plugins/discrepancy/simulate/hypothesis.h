@@ -38,6 +38,7 @@ struct Hypothesis {
   Eigen::VectorXd high() const;
   /// Index of the free factor on modulus, density or damping time, -1 where there is none.
   int factor_on(const std::string& parameter) const;
+  int factor_on(plant::MaterialRole role) const;
   /// What the simulator runs of it.
   Variant variant() const;
   /// Of a plain mesh's error; 0 where it is not among the effects.

@@ -1,16 +1,18 @@
 #pragma once
 
-#include <array>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "pedicel/cosserat/solver/detachment.h"
+
 namespace pedicel::discrepancy {
 
-/// What can break a stalk; the first two are strains from the unloaded shape.
-enum StalkLoad { stalk_stretch, stalk_bend, stalk_force, stalk_moment, stalk_torsion };
-inline constexpr int stalk_load_count = 5;
-using StalkNumbers = std::array<double, stalk_load_count>;  ///< 1, rad, N, N m, N m
+using cosserat::stalk_limits;
+using cosserat::StalkLoad;
+using cosserat::StalkNumbers;
+using enum cosserat::StalkLoad;
+inline constexpr int stalk_load_count = static_cast<int>(stalk_limits.size());
 
 /// What the joint under a fruit carried in a trial, until the fruit came off.
 struct StalkLoads {

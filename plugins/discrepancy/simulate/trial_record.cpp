@@ -76,13 +76,9 @@ void TrialMember::came_off(int fruit, double t) {
 }
 
 void TrialMember::record_stalk(const cosserat::RodState& state, double t, int fruit) {
-  const int e = model_.fruits[fruit].element;
-  const cosserat::Strain strain = cosserat::strain_of(model_, state, e);
-  const cosserat::JointLoad load = cosserat::joint_load(model_, state, e);
   StalkLoads& stalk = result_.stalks[fruit];
   stalk.time.push_back(t);
-  stalk.load.push_back({strain.stretch.norm(), strain.bend.norm(), load.force.norm(),
-                        load.moment.head<2>().norm(), std::abs(load.moment.z())});
+  stalk.load.push_back(cosserat::stalk_numbers(model_, state, model_.fruits[fruit].element));
 }
 
 void TrialMember::record_force(const cosserat::RodState& state, double begin, double t) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pedicel/core/check.h"
+
 namespace pedicel::effects {
 
 const EffectParameter* EffectDefinition::find(const std::string& parameter) const {
@@ -40,6 +42,24 @@ std::string unit_of(const std::string& effect, const std::string& parameter) {
 bool is_time(const std::string& effect, const std::string& parameter) {
   const EffectParameter* described = find_parameter(effect, parameter);
   return described && described->role == Role::time;
+}
+
+const std::vector<const EffectDefinition*>& material_factors() {
+  static const std::vector<const EffectDefinition*> all = [] {
+    std::vector<const EffectDefinition*> found;
+    for (const EffectDefinition& one : effect_definitions())
+      if (one.home == Home::material) found.push_back(&one);
+    return found;
+  }();
+  return all;
+}
+
+const EffectDefinition& material_factor(plant::MaterialRole role) {
+  const auto& all = material_factors();
+  const auto found = std::ranges::find_if(
+      all, [&](const EffectDefinition* one) { return one->material->role == role; });
+  PEDICEL_ASSERT(found != all.end());
+  return **found;
 }
 
 bool same_family(const std::string& a, const std::string& b) {

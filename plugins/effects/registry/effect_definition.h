@@ -132,11 +132,12 @@ struct EffectDefinition {
   /// An effect that does nearly the same in a single straight stem, and what it multiplies the
   /// modulus by; null: there is none.
   plant::Effect (*twin)(const plant::Effect&, double& modulus) = nullptr;
-  /// The material's own number that the factor is on, and its unit.
-  std::optional<double> plant::MaterialValues::*material = nullptr;
-  std::optional<double> plant::MaterialKnowledge::*known_to = nullptr;  ///< how well it is known
-  std::string material_unit;
-  std::string less, more;  ///< than the file says: "softer", "stiffer"
+  const plant::MaterialKey* material = nullptr;  ///< the number that the factor is on
+  std::string less, more;                        ///< than the file says: "softer", "stiffer"
+  /// For the one effect that is what two honest solvers differ by where a branch leaves its stem:
+  /// it at the junction of `curve`, with sizes that nobody would name. `softest`, N m/rad, is the
+  /// most that a discretisation can make of it.
+  Start (*at_junction)(const std::string& curve, double softest) = nullptr;
 
   const EffectParameter* find(const std::string& parameter) const;
 };
@@ -154,6 +155,10 @@ std::string plain_name(const std::string& effect);
 std::string unit_of(const std::string& effect, const std::string& parameter);
 /// Whether a parameter says when something happens, or how much later (s).
 bool is_time(const std::string& effect, const std::string& parameter);
+/// The effects that are factors on the material's numbers, in the order of all.
+const std::vector<const EffectDefinition*>& material_factors();
+/// The one on the number of that role, which is not none.
+const EffectDefinition& material_factor(plant::MaterialRole role);
 bool same_family(const std::string& a, const std::string& b);
 /// Pairs of effects, of which the second has the first as a special case: a wind of no speed is
 /// drag.

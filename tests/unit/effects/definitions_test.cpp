@@ -185,6 +185,33 @@ TEST(EffectList, HasEachNameOnce) {
   EXPECT_GE(names.size(), 30u);
 }
 
+TEST(EffectList, HasAFactorForEachNumberOfTheMaterialWithARole) {
+  int roles = 0;
+  for (const plant::MaterialKey& key : plant::material_keys) {
+    if (key.role == plant::MaterialRole::none) continue;
+    ++roles;
+    EXPECT_EQ(&plant::material_key(key.role), &key) << "two numbers have one role";
+    EXPECT_EQ(material_factor(key.role).name, key.name);
+    EXPECT_TRUE(key.known_to) << key.name;
+  }
+  EXPECT_EQ(material_factors().size(), static_cast<std::size_t>(roles));
+  EXPECT_EQ(plant::count_roles(), roles);
+}
+
+TEST(EffectList, HasOneSpringForJunctionsOfOtherSolvers) {
+  std::vector<std::string> named;
+  for (const EffectDefinition& one : effect_definitions()) {
+    if (!one.at_junction) continue;
+    const Start start = one.at_junction("branch", 2.0);
+    named.push_back(one.name);
+    EXPECT_EQ(start.effect().name, one.name);
+    EXPECT_EQ(start.effect().place->curve, "branch");
+    // The least that a fit may come to is what was asked for.
+    EXPECT_EQ(start.free().front().low, 2.0);
+  }
+  EXPECT_EQ(named.size(), 1u);
+}
+
 TEST(EffectList, RanksWhatASymptomSpeaksFor) {
   EXPECT_EQ(spoken_for("junction_kink"),
             (std::vector<std::string>{"attachment_compliance", "weak_segment"}));

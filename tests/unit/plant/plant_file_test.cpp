@@ -193,5 +193,54 @@ TEST(PlantWriter, AnyNumberReadsBack) {
   }
 }
 
+// Each described number of an entry: one that it may be is written and read back, and one that it
+// may not be is refused with its name and bounds.
+template <typename Owner, typename Keys>
+void expect_numbers_read_back(const Keys& keys, Owner& (*owner)(PlantFile&), int numbers) {
+  constexpr double good = 0.0625, bad = -7.0;
+  int seen = 0;
+  for (const PlantKey<Owner>& key : keys) {
+    EXPECT_FALSE(key.sentence.empty()) << key.name;
+    EXPECT_EQ(find_key(keys, key.name), &key) << key.name << " is described twice";
+    PlantFile plant = parsed(every_key);
+    if (!key.is_number() || (key.stands && !key.stands(owner(plant)))) continue;
+    ++seen;
+    set_number_of(owner(plant), key, good);
+    EXPECT_EQ(parsed(plant_text(plant)), plant) << plant_text(plant);
+    EXPECT_THAT(plant_text(plant), ::testing::HasSubstr(std::string(key.name) + ": 0.0625"));
+    set_number_of(owner(plant), key, bad);
+    Diagnostics diagnostics;
+    EXPECT_FALSE(parse_plant(plant_text(plant), "p.plant.yaml", diagnostics)) << key.name;
+    EXPECT_THAT(diagnostics.text(),
+                ::testing::HasSubstr(std::string(key.name) + " is \"-7\", expected " +
+                                     io::bounds_text(key.bounds)));
+  }
+  EXPECT_EQ(seen, numbers);
+}
+
+TEST(PlantKeys, NumbersAreWrittenReadAndRefused) {
+  const auto of = [](auto&& keys, auto owner, int numbers) {
+    expect_numbers_read_back(keys, +owner, numbers);
+  };
+  of(
+      material_keys, [](PlantFile& p) -> MaterialValues& { return p.material; }, 4);
+  of(
+      material_keys, [](PlantFile& p) -> MaterialValues& { return p.curves[0].material; }, 4);
+  of(
+      section_keys, [](PlantFile& p) -> SectionShape& { return p.curves[1].section; }, 1);
+  of(
+      section_keys, [](PlantFile& p) -> SectionShape& { return p.curves[2].section; }, 2);
+  of(
+      fruit_keys, [](PlantFile& p) -> PlantFruit& { return p.fruits[0]; }, 2);
+  of(
+      detach_keys, [](PlantFile& p) -> DetachLimits& { return p.fruits[0].detach; }, 5);
+  of(
+      leaf_keys, [](PlantFile& p) -> PlantLeaf& { return p.leaves[0]; }, 1);
+  of(
+      mass_keys, [](PlantFile& p) -> PlantMass& { return p.masses[0]; }, 1);
+  of(
+      sampling_keys, [](PlantFile& p) -> PlantFile& { return p; }, 2);
+}
+
 }  // namespace
 }  // namespace pedicel::plant
