@@ -12,6 +12,7 @@
 #include "pedicel/discrepancy/scene/scene_experiment_keys.h"
 #include "pedicel/discrepancy/select/verdict_keys.h"
 #include "pedicel/io/key.h"
+#include "pedicel/plant/plant_file_keys.h"
 #include "pedicel/world/scene_reader.h"
 
 namespace pedicel::app {
@@ -27,6 +28,7 @@ struct KeyPage {
   KeysOf kind = KeysOf::read_file;
 };
 constexpr KeyPage key_pages[] = {{"scene_file", world::scene_keys},
+                                 {"plant_file", plant::plant_file_keys},
                                  {"experiment", discrepancy::experiment_keys},
                                  {"scene_experiment", discrepancy::scene_experiment_keys},
                                  {"verdict", discrepancy::verdict_keys, KeysOf::written_file}};

@@ -2,16 +2,17 @@
 #include <type_traits>
 
 #include "pedicel/io/asset_folder.h"
-#include "pedicel/io/yaml.h"
+#include "pedicel/io/described_map.h"
 #include "pedicel/plant/effect_reader.h"
 #include "pedicel/plant/plant_file.h"
+#include "pedicel/plant/plant_file_keys.h"
 #include "pedicel/plant/plant_size.h"
 
 namespace pedicel::plant {
 
 namespace {
 
-using io::YamlMap;
+using io::DescribedMap;
 using io::YamlNode;
 
 // A direction: its length does not count, but it must have one.
@@ -25,15 +26,14 @@ Vec3 direction(const YamlNode& node, const std::string& what) {
 // One key after the other, as its description says: those that its owner does not have are left
 // for finish() to refuse.
 template <typename Owner>
-void read_key(YamlMap& map, const PlantKey<Owner>& key, Owner& owner) {
+void read_key(DescribedMap& map, const PlantKey<Owner>& key, Owner& owner) {
   const std::string name(key.name);
   const auto read = [&](auto member) {
     using Member = decltype(member);
     if constexpr (std::is_same_v<Member, double Owner::*>) {
-      owner.*member = key.otherwise ? map.number(name, key.bounds, *key.otherwise)
-                                    : map.number(name, key.bounds);
+      owner.*member = key.otherwise ? map.number(name) : map.required_number(name);
     } else if constexpr (std::is_same_v<Member, std::optional<double> Owner::*>) {
-      if (const auto node = map.optional(name)) owner.*member = node->number(name, key.bounds);
+      owner.*member = map.optional_number(name);
     } else if constexpr (std::is_same_v<Member, Vec3 Owner::*>) {
       if (const auto node = map.required(name)) owner.*member = direction(*node, name);
     } else if constexpr (std::is_same_v<Member, std::optional<Vec3> Owner::*>) {
@@ -41,8 +41,8 @@ void read_key(YamlMap& map, const PlantKey<Owner>& key, Owner& owner) {
     } else if constexpr (std::is_same_v<Member, std::string Owner::*>) {
       owner.*member = map.text(name);
     } else {
-      const std::vector<std::string> words(member.words.begin(), member.words.end());
-      const std::string word = map.choice(name, words, words.front());
+      const std::vector<std::string>& words = map.key(name).words;
+      const std::string word = map.choice(name);
       member.set(owner, static_cast<int>(std::ranges::find(words, word) - words.begin()));
     }
   };
@@ -50,26 +50,25 @@ void read_key(YamlMap& map, const PlantKey<Owner>& key, Owner& owner) {
 }
 
 template <typename Owner, typename Keys>
-void read_keys(YamlMap& map, const Keys& keys, Owner& owner) {
+void read_keys(DescribedMap& map, const Keys& keys, Owner& owner) {
   for (const PlantKey<Owner>& key : keys)
     if (!key.stands || key.stands(owner)) read_key(map, key, owner);
 }
 
 MaterialKnowledge read_known_to(const YamlNode& node) {
-  YamlMap map(node, "known_to");
+  DescribedMap map(node, known_to_list());
   MaterialKnowledge known;
   for (const MaterialKey& key : material_keys) {
     if (!key.known_to) continue;
     const std::string name(key.name);
-    if (const auto given = map.optional(name))
-      known.*key.known_to = given->number(name, io::positive);
+    known.*key.known_to = map.optional_number(name);
   }
   map.finish();
   return known;
 }
 
 MaterialValues read_material(const YamlNode& node) {
-  YamlMap map(node, "material");
+  DescribedMap map(node, material_list());
   MaterialValues material;
   read_keys(map, material_keys, material);
   if (const auto known_to = map.optional("known_to")) material.known_to = read_known_to(*known_to);
@@ -78,7 +77,7 @@ MaterialValues read_material(const YamlNode& node) {
 }
 
 SectionShape read_section(const YamlNode& node) {
-  YamlMap map(node, "section");
+  DescribedMap map(node, section_list());
   SectionShape section;
   read_keys(map, section_keys, section);
   map.finish();
@@ -86,7 +85,7 @@ SectionShape read_section(const YamlNode& node) {
 }
 
 PlantCurve read_curve(const YamlNode& node) {
-  YamlMap map(node, "a curve");
+  DescribedMap map(node, curve_list());
   PlantCurve curve;
   curve.where = node.position();
   curve.name = map.text("name");
@@ -98,9 +97,9 @@ PlantCurve read_curve(const YamlNode& node) {
   const bool needed = curve.section.kind != SectionKind::rectangle;
   if (const auto radius = needed ? map.required("radius") : map.optional("radius")) {
     if (radius->is_list()) {
-      curve.radius = radius->numbers("radius", io::positive);
+      curve.radius = radius->numbers("radius", map.key("radius").bounds);
     } else {
-      curve.radius = {radius->number("radius", io::positive)};
+      curve.radius = {radius->number("radius", map.key("radius").bounds)};
     }
   }
   if (const auto material = map.optional("material")) curve.material = read_material(*material);
@@ -109,7 +108,7 @@ PlantCurve read_curve(const YamlNode& node) {
 }
 
 DetachLimits read_limits(const YamlNode& node) {
-  YamlMap map(node, "detach");
+  DescribedMap map(node, detach_list());
   DetachLimits limits;
   read_keys(map, detach_keys, limits);
   map.finish();
@@ -117,7 +116,7 @@ DetachLimits read_limits(const YamlNode& node) {
 }
 
 PlantFruit read_fruit(const YamlNode& node) {
-  YamlMap map(node, "a fruit");
+  DescribedMap map(node, fruit_list());
   PlantFruit fruit;
   fruit.where = node.position();
   fruit.name = map.text("name");
@@ -129,7 +128,7 @@ PlantFruit read_fruit(const YamlNode& node) {
 }
 
 PlantLeaf read_leaf(const YamlNode& node) {
-  YamlMap map(node, "a leaf");
+  DescribedMap map(node, leaf_list());
   PlantLeaf leaf;
   leaf.where = node.position();
   leaf.name = map.text("name");
@@ -140,7 +139,7 @@ PlantLeaf read_leaf(const YamlNode& node) {
 }
 
 PlantMass read_mass(const YamlNode& node) {
-  YamlMap map(node, "a mass");
+  DescribedMap map(node, mass_list());
   PlantMass mass;
   mass.place = read_place(map);
   read_keys(map, mass_keys, mass);
@@ -149,20 +148,20 @@ PlantMass read_mass(const YamlNode& node) {
 }
 
 CurvePlace read_support(const YamlNode& node) {
-  YamlMap map(node, "a support");
+  DescribedMap map(node, support_list());
   const CurvePlace place = read_place(map);
   map.finish();
   return place;
 }
 
-PlantFile read_plant(YamlMap& map) {
+PlantFile read_plant(DescribedMap& map) {
   PlantFile plant;
   plant.where = map.position();
   plant.name = map.text("name");
   read_keys(map, plant_keys, plant);
   if (const auto material = map.optional("material")) plant.material = read_material(*material);
   if (const auto sampling = map.required("sampling")) {
-    YamlMap inner(*sampling, "sampling");
+    DescribedMap inner(*sampling, sampling_list());
     read_keys(inner, sampling_keys, plant);
     inner.finish();
   }
@@ -182,8 +181,8 @@ PlantFile read_plant(YamlMap& map) {
 std::optional<PlantFile> read(const YamlNode& node) {
   Diagnostics& diagnostics = node.diagnostics();
   const int before = diagnostics.error_count();
-  YamlMap map(node, "a plant file");
-  if (!node.is_map() || !io::check_format(map, "pedicel-plant", 1)) return std::nullopt;
+  DescribedMap map(node, plant_list());
+  if (!node.is_map() || !map.has_format()) return std::nullopt;
   PlantFile plant = read_plant(map);
   // Values that were refused come back as zeros: checking those would only repeat the faults.
   if (diagnostics.error_count() == before) check_plant(plant, diagnostics);

@@ -107,22 +107,6 @@ class Words(unittest.TestCase):
         self.assertEqual([line for line, _ in words.check(page(text), old)], [3, 7])
 
 
-class Bounds(unittest.TestCase):
-    def test_a_file_page_has_the_bounds_of_the_setting(self):
-        def faults(row):
-            pages = {"plant_file.md": page("| key | unit | default | bounds | what it is |\n|---|---|---|---|---|\n" + row),
-                     "scene_file.md": page("| `dt` | s | 1/240 | 1e-7 to 1 | x |\n")}
-            told = ("settings\t1\t| `detach.force` | N | the plant's | above 0 | x |\n"
-                    "settings\t1\t| `dt` | s | the scene's | 1e-07 to 1 | x |\n"
-                    "settings\t1\t| `sun` | 1 | 0.82 | 0 to 4 | x |\n")
-            return [(line, text) for _, line, text in rows.check_bounds(pages, told)]
-
-        self.assertEqual(faults("| `force` | N | none | above 0 | y |\n"), [])
-        for wrong in ("| `force` | kN | none | above 0 | y |\n", "| `force` | N | none | 0 or more | y |\n"):
-            self.assertEqual(faults(wrong), [(3, "`force`: expected the unit N and the bounds above 0")])
-        self.assertEqual(faults(""), [(1, "`force` has no row with unit, default, bounds and what it is")])
-
-
 class Outputs(unittest.TestCase):
     def test_a_command_prints_one_thing_on_all_pages(self):
         one = page("```console\n$ pedicel a\nx\n$ pedicel b\n```\n", MANUAL / "one.md")

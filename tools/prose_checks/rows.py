@@ -51,33 +51,3 @@ def update(name, lines, text):
         if wanted_page == name and (index := row_of(key, row, lines)) is not None:
             lines[index] = row
     return lines
-
-
-# Pages of files have sentences of their own. Unit and bounds are those of the settings all the same:
-# one number is described once.
-FILES = {"material": "plant_file.md", "detach": "plant_file.md"}
-
-
-def as_numbers(cell):
-    """1e-06 and 1e-6 are one number."""
-    return re.sub(r"-?\d[\d.]*(?:e[+-]?\d+)?", lambda found: f"{float(found.group()):g}", cell)
-
-
-def check_bounds(pages, text):
-    """(page, line, fault) of rows of file pages whose unit or bounds are not those of the setting."""
-    faults = []
-    for page, key, row in wanted(text):
-        name = key[0].strip("`")
-        group, _, last = name.rpartition(".")
-        if page != "settings.md" or group not in FILES:
-            continue
-        told, cells = pages[FILES[group]], cells_of(row)
-        # The first row of that name within the section: a fruit has a density, too.
-        index = row_of((f"`{last}`",), row, told.lines)
-        if index is None:
-            faults.append((told, 1, f"`{last}` has no row with unit, default, bounds and what it is"))
-            continue
-        shown = cells_of(told.lines[index])
-        if [shown[1], as_numbers(shown[3])] != [cells[1], as_numbers(cells[3])]:
-            faults.append((told, index + 1, f"`{last}`: expected the unit {cells[1]} and the bounds {cells[3]}"))
-    return faults
