@@ -80,6 +80,7 @@ GroundPlane read_ground(const io::YamlNode& node) {
   io::YamlMap map(node, "ground");
   ground.height = map.number("height", io::place_bounds, 0.0);
   ground.friction = map.number("friction", io::not_negative, ground.friction);
+  ground.restitution = map.number("restitution", io::fraction, ground.restitution);
   map.finish();
   return ground;
 }
