@@ -140,10 +140,13 @@ void camera_details(Ui& ui, const world::SceneCamera& camera) {
 
 void ground_details(Ui& ui, const world::GroundPlane& ground) {
   double height = 1e3 * ground.height, friction = ground.friction;
+  double restitution = ground.restitution;
   if (labelled_number(ui, "Height", "mm", height))
     ui.run(Command("set ground", {{"height", height / 1e3}}));
   if (labelled_number(ui, "Friction", "", friction))
     ui.run(Command("set ground", {{"friction", friction}}));
+  if (labelled_number(ui, "Restitution", "", restitution))
+    ui.run(Command("set ground", {{"restitution", restitution}}));
   if (wide_button("Delete")) ui.ask(Action::remove);
 }
 

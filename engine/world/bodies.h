@@ -32,8 +32,9 @@ struct BodyDescription {
 };
 
 struct GroundPlane {
-  double height = 0.0;    ///< m
-  double friction = 0.8;  ///< 1
+  double height = 0.0;       ///< m
+  double friction = 0.8;     ///< 1
+  double restitution = 0.0;  ///< 1; Bullet multiplies it with the body's
 };
 
 /// The words that `look:` takes.

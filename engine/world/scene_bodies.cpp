@@ -55,8 +55,7 @@ const io::KeyList& body_list() {
         .unit = "1",
         .otherwise = BodyDescription{}.restitution,
         .bounds = io::fraction,
-        .sentence = "how much it bounces; two bodies have the product of theirs, and on the ground "
-                    "none bounces"},
+        .sentence = "how much it bounces; two bodies have the product of theirs"},
        {.name = "look",
         .type = KeyType::word,
         .otherwise = BodyDescription{}.look,
@@ -110,7 +109,13 @@ const io::KeyList& ground_list() {
                                   .unit = "1",
                                   .otherwise = GroundPlane{}.friction,
                                   .bounds = io::not_negative,
-                                  .sentence = "Coulomb"}}};
+                                  .sentence = "Coulomb"},
+                                 {.name = "restitution",
+                                  .unit = "1",
+                                  .otherwise = GroundPlane{}.restitution,
+                                  .bounds = io::fraction,
+                                  .sentence = "how much bodies bounce on it, multiplied with "
+                                              "theirs; 0: none does"}}};
   return keys;
 }
 
@@ -192,6 +197,7 @@ GroundPlane read_ground(const io::YamlNode& node) {
   io::DescribedMap map(node, ground_list());
   ground.height = map.number("height");
   ground.friction = map.number("friction");
+  ground.restitution = map.number("restitution");
   map.finish();
   return ground;
 }

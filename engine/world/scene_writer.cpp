@@ -79,6 +79,7 @@ std::string ground(const GroundPlane& ground) {
   return FlowMap()
       .add("height", ground.height)
       .add_unless("friction", ground.friction, GroundPlane{}.friction)
+      .add_unless("restitution", ground.restitution, GroundPlane{}.restitution)
       .text();
 }
 

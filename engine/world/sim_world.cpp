@@ -179,7 +179,11 @@ void SimWorld::set_ground(const GroundPlane& ground) {
   bullet_->ground_shape = std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), ground.height);
   btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, bullet_->ground_shape.get());
   info.m_friction = ground.friction;
+  info.m_restitution = ground.restitution;
   bullet_->ground = std::make_unique<btRigidBody>(info);
+  // What comes near a plane is braked before it touches, as far as it would else sink in within the
+  // step: what is to bounce must lose nothing there.
+  if (ground.restitution > 0.0) bullet_->ground->setContactProcessingThreshold(0.0);
   bullet_->world.addRigidBody(bullet_->ground.get());
 }
 

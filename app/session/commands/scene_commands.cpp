@@ -158,10 +158,14 @@ void set_ground(Document& document, const Command& c) {
   world::GroundPlane ground = document.scene->ground.value_or(world::GroundPlane{});
   ground.height = c.number_or("height", ground.height);
   ground.friction = c.number_or("friction", ground.friction);
+  ground.restitution = c.number_or("restitution", ground.restitution);
   if (!io::within(ground.height, io::place_bounds))
     throw UsageError("height " + io::format_number(ground.height) +
                      ", expected m: " + io::bounds_text(io::place_bounds));
   if (!(ground.friction >= 0.0)) throw UsageError("friction, expected 0 or more");
+  if (!io::within(ground.restitution, io::fraction))
+    throw UsageError("restitution " + io::format_number(ground.restitution) +
+                     ", expected one: " + io::bounds_text(io::fraction));
   document.edit_scene().ground = ground;
 }
 
@@ -257,7 +261,9 @@ std::vector<CommandDescription> scene_commands() {
   const std::vector<CommandDescription> others = {
       {"set ground",
        d,
-       {{"height", Kind::number, false, "m (0)"}, {"friction", Kind::number, false, "1 (0.8)"}},
+       {{"height", Kind::number, false, "m (0)"},
+        {"friction", Kind::number, false, "1 (0.8)"},
+        {"restitution", Kind::number, false, "1 (0)"}},
        "Puts the ground there, where there is none, too.",
        set_ground},
       {"delete ground", d, {}, "Takes the ground away.", delete_ground},

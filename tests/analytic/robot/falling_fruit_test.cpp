@@ -16,9 +16,21 @@ namespace {
 constexpr double radius = 0.02, g = 9.81;  // m, m/s2
 
 struct Fall : SimWorld {
-  /// A fruit above (m, its lowest point) a table whose top is at height 0.
-  Fall(double height, double fruit_e, double table_e, const Vec3& velocity, double dt)
+  /// A fruit above (m, its lowest point) a table whose top is at height 0, or such ground.
+  Fall(double height, double fruit_e, double table_e, const Vec3& velocity, double dt,
+       bool on_ground = false)
       : SimWorld(step_of(dt)) {
+    if (on_ground)
+      set_ground({.height = 0.0, .friction = 0.5, .restitution = table_e});
+    else
+      add_table(table_e);
+    BodyDescription body = fruit_body("fruit", radius, 0.03, 0.0, 0.0);
+    body.pose.position = Vec3(0, 0, height + radius);
+    body.velocity = velocity;
+    body.restitution = fruit_e;
+    fruit = add_body(body);
+  }
+  void add_table(double table_e) {
     BodyDescription table;
     table.name = "table";
     table.parts.push_back({BodyPart::Kind::box, {}, Vec3(2, 2, 0.1), 0.0, 0.0});
@@ -26,11 +38,6 @@ struct Fall : SimWorld {
     table.friction = 0.5;
     table.restitution = table_e;
     add_body(table);
-    BodyDescription body = fruit_body("fruit", radius, 0.03, 0.0, 0.0);
-    body.pose.position = Vec3(0, 0, height + radius);
-    body.velocity = velocity;
-    body.restitution = fruit_e;
-    fruit = add_body(body);
   }
   static WorldSettings step_of(double dt) {
     WorldSettings settings;
@@ -41,22 +48,37 @@ struct Fall : SimWorld {
   int fruit = 0;
 };
 
+// m, its lowest point where it is highest after its first impact.
+double comes_back_to(Fall& fall) {
+  double highest = 0.0;
+  bool was_down = false;
+  for (int i = 0; i < 2400; ++i) {
+    fall.step();
+    was_down = was_down || fall.body_velocity(fall.fruit).z() >= 0.0;
+    if (was_down) highest = std::max(highest, fall.height());
+    if (was_down && fall.body_velocity(fall.fruit).z() < 0.0) break;  // on its way down again
+  }
+  EXPECT_TRUE(was_down);
+  return highest;
+}
+
 TEST(FallingFruit, ComesBackAsHighAsRestitutionSays) {
   for (const auto& [fruit_e, table_e] :
        {std::pair(0.9, 0.8), std::pair(0.7, 0.7), std::pair(0.0, 0.9)}) {
     Fall fall(0.5, fruit_e, table_e, Vec3::Zero(), 1.0 / 2000.0);
-    double highest = 0.0;
-    bool was_down = false;
-    for (int i = 0; i < 2400; ++i) {
-      fall.step();
-      was_down = was_down || fall.body_velocity(fall.fruit).z() >= 0.0;
-      if (was_down) highest = std::max(highest, fall.height());
-      if (was_down && fall.body_velocity(fall.fruit).z() < 0.0) break;  // on its way down again
-    }
-    ASSERT_TRUE(was_down);
     const double e = fruit_e * table_e;
     // The impact is anywhere within a step: 0.5 m are fallen at 3.1 m/s, 1.6 mm a step.
-    EXPECT_NEAR(highest, e * e * 0.5, 0.004) << fruit_e << " on " << table_e;
+    EXPECT_NEAR(comes_back_to(fall), e * e * 0.5, 0.004) << fruit_e << " on " << table_e;
+  }
+}
+
+// The ground of a scene file, whose friction comes with it.
+TEST(FallingFruit, OnTheGroundLikewise) {
+  for (const auto& [fruit_e, ground_e] :
+       {std::pair(0.9, 0.8), std::pair(0.7, 0.7), std::pair(0.9, 0.0)}) {
+    Fall fall(0.5, fruit_e, ground_e, Vec3::Zero(), 1.0 / 2000.0, true);
+    const double e = fruit_e * ground_e;
+    EXPECT_NEAR(comes_back_to(fall), e * e * 0.5, 0.004) << fruit_e << " on " << ground_e;
   }
 }
 

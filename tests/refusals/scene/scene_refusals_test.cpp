@@ -137,6 +137,8 @@ const Case cases[] = {
      "box: expected three numbers > 0 and at most"},
     {"ground_high", "ground: {height: 1e300}\n",
      "height is \"1e300\", expected a number between -10000000 and 10000000"},
+    {"ground_restitution", "ground: {restitution: 1.2}\n",
+     "restitution is \"1.2\", expected a number between 0 and 1"},
     {"camera_far", "cameras: [{name: c, eye: [1e300, 0, 0]}]\n",
      "eye: expected three numbers, each between"},
     {"body_radius", "bodies: [{name: a, sphere: {radius: -1}}]\n",

@@ -195,6 +195,7 @@ TEST_F(Building, WhatCannotBeIsRefusedWithASentence) {
   EXPECT_THAT(refusal("add sphere b 1 mass=1e300"), HasSubstr("expected kg from 0 to 1e+09"));
   EXPECT_THAT(refusal("add sphere b 1 position=1e300,0,0"), HasSubstr("position, expected m"));
   EXPECT_THAT(refusal("set ground height=1e300"), HasSubstr("height 1e+300, expected m"));
+  EXPECT_THAT(refusal("set ground restitution=1.2"), HasSubstr("restitution 1.2, expected one"));
   EXPECT_THAT(refusal("set body ball mass 1e300"), HasSubstr("expected kg from 0 to"));
   EXPECT_THAT(refusal("set body ball radius 1e300"), HasSubstr("at most 10000000"));
   EXPECT_THAT(refusal("add sphere b 1 look=gold"), HasSubstr("expected one of: steel, wood"));
