@@ -5,14 +5,15 @@
 namespace pedicel::scene_case {
 namespace {
 
-// More cases of `scene_bench --seed 1`: causes of the arm and of the instruments.
+// More cases of `scene_bench --seed 1`: latency with another modulus, a sensor's gain, a focal
+// length with another modulus.
 class FurtherSceneCases : public testing::TestWithParam<int> {};
 
 TEST_P(FurtherSceneCases, ComesOutRight) {
   expect_right(1, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Something, FurtherSceneCases, testing::Values(11),
+INSTANTIATE_TEST_SUITE_P(Something, FurtherSceneCases, testing::Values(11, 15, 17),
                          [](const testing::TestParamInfo<int>& info) {
                            return test_name(info.param);
                          });
