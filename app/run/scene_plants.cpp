@@ -4,6 +4,7 @@
 
 #include "pedicel/app/plants/plant_overrides.h"
 #include "pedicel/app/plants/rod_options.h"
+#include "pedicel/app/plants/varied_plant.h"
 #include "pedicel/app/run/large_plant.h"
 #include "pedicel/cosserat/solver/standing.h"
 #include "pedicel/discrepancy/scene/state_changes.h"
@@ -59,33 +60,56 @@ class Builder {
 
   void add(const ScenePlant& wanted) {
     if (wanted.source == ScenePlant::Source::built_in) return add_reference(wanted);
+    const std::optional<plant::PlantFile> file = file_of(wanted);
+    if (!file) return;
+    say_if_large(*file);
+    const int count = wanted.repeat[0] * wanted.repeat[1];
+    for (int i = 0; i < count && !diagnostics_.has_errors(); ++i) {
+      // The first one tells how large they are; a thousand more may not fit into memory.
+      if (i == 1 && !is_affordable(wanted, count)) return;
+      const PlacedPlantFile one = of_grid(*file, wanted, i);
+      add_file(one.file, wanted, one.pose);
+    }
+  }
+
+  /// The same plants as files, without what the scene's effects change.
+  void add_files(const ScenePlant& wanted, std::vector<PlacedPlantFile>& files) {
+    const std::optional<plant::PlantFile> file = file_of(wanted);
+    for (int i = 0; file && i < wanted.repeat[0] * wanted.repeat[1]; ++i)
+      files.push_back(of_grid(*file, wanted, i));
+  }
+
+  std::vector<ScenePlantModel> plants;
+
+ private:
+  // As an entry of the scene has it, with the entry's settings; nothing where it is faulty.
+  std::optional<plant::PlantFile> file_of(const ScenePlant& wanted) {
     const auto edited = options_.edited.find(wanted.name);
     // A plant that is edited goes before its file, also where that is faulty by now.
     const bool is_edited = edited != options_.edited.end();
     std::optional<plant::PlantFile> file =
         is_edited ? std::optional(edited->second) : read_file(wanted, diagnostics_, notes_);
     // One that was emptied by hand is no fault: nothing is drawn yet.
-    if (!file || (is_edited && file->curves.empty())) return;
+    if (!file || (is_edited && file->curves.empty())) return std::nullopt;
     apply_plant_overrides(*file, wanted.set, diagnostics_);
     add_effects(*file, wanted);
-    if (diagnostics_.has_errors()) return;
-    say_if_large(*file);
-    const int count = wanted.repeat[0] * wanted.repeat[1];
-    for (int i = 0; i < count && !diagnostics_.has_errors(); ++i) {
-      // The first one tells how large they are; a thousand more may not fit into memory.
-      if (i == 1 && !is_affordable(wanted, count)) return;
-      Pose pose = wanted.pose;
-      pose.position.x() += wanted.spacing.x() * (i % wanted.repeat[0]);
-      pose.position.y() += wanted.spacing.y() * (i / wanted.repeat[0]);
-      // Names in logs and expectations must tell the copies apart.
-      file->name = count > 1 ? wanted.name + "_" + std::to_string(i) : wanted.name;
-      add_file(*file, wanted, pose);
-    }
+    if (diagnostics_.has_errors()) return std::nullopt;
+    return file;
   }
 
-  std::vector<ScenePlantModel> plants;
+  PlacedPlantFile of_grid(const plant::PlantFile& file, const ScenePlant& wanted, int i) {
+    PlacedPlantFile one{file, wanted.pose};
+    one.pose.position.x() += wanted.spacing.x() * (i % wanted.repeat[0]);
+    one.pose.position.y() += wanted.spacing.y() * (i / wanted.repeat[0]);
+    // Names in logs and expectations must tell the copies apart.
+    const bool is_grid = wanted.repeat[0] * wanted.repeat[1] > 1;
+    one.file.name = is_grid ? wanted.name + "_" + std::to_string(i) : wanted.name;
+    if (!wanted.vary.empty())
+      vary_plant(wanted, i, static_cast<std::uint64_t>(scene_.seed), one.file, one.pose,
+                 diagnostics_);
+    return one;
+  }
 
- private:
   // Once the first of `count` equal plants is built. Before the others are.
   bool is_affordable(const ScenePlant& wanted, int count) {
     const double elements = static_cast<double>(count) * plants.back().model.size();
@@ -162,6 +186,9 @@ class Builder {
     if (!wanted.set.empty())
       diagnostics_.error(wanted.set.front().where,
                          "set: a built-in plant cannot be changed, expected none");
+    if (!wanted.vary.empty())
+      diagnostics_.error(wanted.vary.front().where,
+                         "vary: a built-in plant cannot be changed, expected none");
     const int count = wanted.built_in == "forest" ? plant::forest_size : 1;
     for (int i = 0; i < count && !diagnostics_.has_errors(); ++i) {
       ScenePlantModel made = reference_plant(wanted, i, diagnostics_);
@@ -207,6 +234,22 @@ std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
   return std::move(builder.plants);
 }
 
+std::vector<PlacedPlantFile> plant_files(const world::Scene& scene,
+                                         const SimulationOptions& options,
+                                         Diagnostics& diagnostics) {
+  std::vector<std::string> notes;
+  Builder builder(scene, options, nullptr, diagnostics, notes);
+  std::vector<PlacedPlantFile> files;
+  for (const ScenePlant& wanted : scene.plants) {
+    if (wanted.source == ScenePlant::Source::built_in)
+      diagnostics.error(wanted.where,
+                        "plant \"" + wanted.name + "\" is built in, expected one that has a file");
+    else
+      builder.add_files(wanted, files);
+  }
+  return files;
+}
+
 namespace {
 
 /// Plants as their files have them, each read once.
@@ -240,9 +283,15 @@ void check_settings(const std::vector<world::Scene>& scenes, const SimulationOpt
     apply_rod_settings(scene.rods, rods, diagnostics);
     apply_coupling_settings(scene.coupling, coupling, diagnostics);
     for (const ScenePlant& wanted : scene.plants) {
-      if (wanted.source == ScenePlant::Source::built_in || wanted.set.empty()) continue;
-      if (std::optional<plant::PlantFile> file = files.of(wanted, diagnostics))
-        apply_plant_overrides(*file, wanted.set, diagnostics);
+      if (wanted.source == ScenePlant::Source::built_in) continue;
+      if (wanted.set.empty() && wanted.vary.empty()) continue;
+      std::optional<plant::PlantFile> file = files.of(wanted, diagnostics);
+      if (!file) continue;
+      apply_plant_overrides(*file, wanted.set, diagnostics);
+      // Of a grid the first plant: an unknown key is unknown to all of them.
+      Pose pose;
+      if (!wanted.vary.empty())
+        vary_plant(wanted, 0, static_cast<std::uint64_t>(scene.seed), *file, pose, diagnostics);
     }
     if (diagnostics.has_errors()) return;
   }

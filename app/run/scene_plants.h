@@ -16,6 +16,12 @@ struct ScenePlantModel {
   PlantInfo info;
 };
 
+/// A plant of a scene as a file of its own, and where it stands.
+struct PlacedPlantFile {
+  plant::PlantFile file;
+  Pose pose;  ///< X_WP
+};
+
 /// The file that a scene's plant is read from: an absent optional one's fallback, which may be
 /// empty.
 std::filesystem::path source_of(const world::ScenePlant& plant);
@@ -38,6 +44,12 @@ std::vector<ScenePlantModel> build_plants(const world::Scene& scene,
                                           const discrepancy::RunEffects* effects,
                                           Diagnostics& diagnostics,
                                           std::vector<std::string>& notes);
+
+/// Every plant of a scene, each of a grid by itself, with the scene's settings and what its `vary`
+/// drew in it. Faults, such as a plant that is built in, go to `diagnostics`.
+std::vector<PlacedPlantFile> plant_files(const world::Scene& scene,
+                                         const SimulationOptions& options,
+                                         Diagnostics& diagnostics);
 
 /// Whether the settings of every scene are known keys with possible values, without building
 /// anything: an impossible one is found before the first of many runs. The scenes have the same

@@ -34,6 +34,7 @@
 #include "pedicel/app/verbs/pick.h"
 #include "pedicel/app/verbs/ros_arguments.h"
 #include "pedicel/app/verbs/run_arguments.h"
+#include "pedicel/app/verbs/save_plants.h"
 #include "pedicel/app/verbs/sweep.h"
 #include "pedicel/app/verbs/transfer.h"
 #include "pedicel/app/verbs/validate.h"
@@ -88,6 +89,10 @@ int run_verb(const RunArguments& a, const MakeFilms& make_films) {
     std::cout << effective_scene(scene) << std::flush;
     return exit_ok;
   }
+  if (!a.save_plants.empty()) {
+    std::cout << save_plants(scene, options.simulation, a.save_plants) << std::endl;
+    return exit_ok;
+  }
   if (a.param_sweep.empty()) return end_of_run(scene, a, options, run_with_sweep(scene, options));
   return end_of_run(scene, a, options,
                     run_param_sweep(scene, read_param_sweep(a.param_sweep), options));
@@ -120,7 +125,8 @@ void check_picture_arguments(const RunArguments& a) {
       {"--events", !a.events.empty()},           {"--gltf", !a.gltf.empty()},
       {"--trajectory", !a.trajectory.empty()},   {"--compare", !a.compare.empty()},
       {"--save-state", !a.save_state.empty()},   {"--load-state", !a.load_state.empty()},
-      {"--param-sweep", !a.param_sweep.empty()}, {"--print-scene", a.print_scene}};
+      {"--param-sweep", !a.param_sweep.empty()}, {"--print-scene", a.print_scene},
+      {"--save-plants", !a.save_plants.empty()}};
   for (const auto& [option, given] : of_runs)
     if (given)
       throw UsageError(std::string(option) +
@@ -150,6 +156,7 @@ int play_verb(const RunArguments& a, const DesktopRequest& window) {
                                                     {"--param-sweep", !a.param_sweep.empty()},
                                                     {"--json", a.json},
                                                     {"--print-scene", a.print_scene},
+                                                    {"--save-plants", !a.save_plants.empty()},
                                                     {"--with-ui", window.with_interface}};
   for (const auto& [option, given] : of_scenes)
     if (given) throw UsageError(std::string(option) + ": is of a scene, expected it without a log");

@@ -80,7 +80,8 @@ std::string RunArguments::number(const std::string& key) const {
 bool RunArguments::asks_for_run() const {
   const bool files = !out.empty() || !script.empty() || !log.empty() || !events.empty() ||
                      !gltf.empty() || !compare.empty() || !save_state.empty() ||
-                     !load_state.empty() || !param_sweep.empty() || !trajectory.empty();
+                     !save_plants.empty() || !load_state.empty() || !param_sweep.empty() ||
+                     !trajectory.empty();
   return files || headless || json || quiet || print_scene || steps;
 }
 
@@ -125,6 +126,10 @@ void add_run_options(CLI::App& app, RunArguments& a) {
   app.add_flag("--print-scene", a.print_scene,
                "the scene with its defaults and these options as YAML on standard output, without "
                "running it");
+  app.add_option(
+      "--save-plants", a.save_plants,
+      "writes every plant of the scene into that folder, each of a grid as a file of its "
+      "own, and the scene that has them, without running it");
   app.add_flag("--json", a.json, "the result as JSON on standard output");
   app.add_flag("--quiet", a.quiet, "no progress, no start and end lines: as -v 2");
   app.add_option("-v", a.verbosity,
@@ -340,7 +345,7 @@ void check_files_out(const RunArguments& a, const std::filesystem::path& out) {
 
 RunOptions options_of_run(const RunArguments& a) {
   RunOptions options = run_options(a);
-  if (!a.print_scene) {
+  if (!a.print_scene && a.save_plants.empty()) {
     check_files_out(a, options.out);
     io::check_output_folder(options.out, files_of_a_run());
   }

@@ -17,7 +17,8 @@ namespace pedicel::app {
 /// What the command line says of a run; names as in the options.
 struct RunArguments {
   std::string scene, script, out, size, camera, unit;
-  std::string log, events, gltf, trajectory, compare, save_state, load_state, param_sweep;
+  std::string log, events, gltf, trajectory, compare, save_state, load_state, save_plants,
+      param_sweep;
   std::vector<std::string> set, packages;
   /// duration, dt, log_rate, seed, threads as they were typed: the same run as by `--set`.
   std::vector<std::pair<std::string, std::string>> numbers;

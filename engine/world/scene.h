@@ -49,6 +49,7 @@ struct ScenePlant {
   Pose pose;     ///< X_WP
   std::array<int, 2> repeat{1, 1};    ///< plants along X and Y
   Eigen::Vector2d spacing{0.5, 0.5};  ///< m
+  std::vector<VariedNumber> vary;     ///< in what the plants of a grid differ
   std::vector<Setting> set;           ///< e.g. detach.stretch
   SourcePosition where;
 };

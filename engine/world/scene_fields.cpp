@@ -134,12 +134,14 @@ std::string plant(const ScenePlant& plant, const std::filesystem::path& folder) 
   map.add("name", io::yaml_word(plant.name));
   add_source(map, plant, folder);
   map.add_pose(plant.pose);
-  if (plant.repeat != std::array<int, 2>{1, 1})
-    map.add("repeat",
-            FlowMap()
-                .add("count", number_list({double(plant.repeat[0]), double(plant.repeat[1])}))
-                .add("spacing", number_list({plant.spacing.x(), plant.spacing.y()}))
-                .text());
+  if (plant.repeat != std::array<int, 2>{1, 1} || !plant.vary.empty()) {
+    FlowMap repeat, vary;
+    repeat.add("count", number_list({double(plant.repeat[0]), double(plant.repeat[1])}))
+        .add("spacing", number_list({plant.spacing.x(), plant.spacing.y()}));
+    for (const VariedNumber& one : plant.vary) vary.add(one.key, varied(one));
+    if (!plant.vary.empty()) repeat.add("vary", vary.text());
+    map.add("repeat", repeat.text());
+  }
   const FlowMap set = settings(plant.set);
   if (!set.empty()) map.add("set", set.text());
   return map.text();

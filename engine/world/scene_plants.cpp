@@ -40,7 +40,7 @@ const io::KeyList& plant_list() {
        {.name = "repeat",
         .type = KeyType::map,
         .otherwise = Told{"once"},
-        .sentence = "a grid of equal plants, named `NAME_0`, `NAME_1` and so on, along X first"},
+        .sentence = "a grid of plants, named `NAME_0`, `NAME_1` and so on, along X first"},
        {.name = "set",
         .type = KeyType::map,
         .otherwise = none,
@@ -72,7 +72,12 @@ const io::KeyList& repeat_list() {
                                   .unit = "m",
                                   .bounds = io::extent_bounds,
                                   .form = "two",
-                                  .sentence = "distances along X and Y"}},
+                                  .sentence = "distances along X and Y"},
+                                 {.name = "vary",
+                                  .type = KeyType::map,
+                                  .otherwise = Told{"none"},
+                                  .form = "keys with distributions",
+                                  .sentence = "in what the plants differ, below"}},
                                 "repeat"};
   return keys;
 }
@@ -265,6 +270,7 @@ void read_repeat(io::DescribedMap& map, ScenePlant& plant) {
                                          static_cast<int>(plants.maximum));
     if (spacing.size() == 2) plant.spacing[i] = spacing[i].number("repeat.spacing", apart);
   }
+  if (const auto vary = repeat.optional("vary")) plant.vary = read_vary(*vary);
   repeat.finish();
 }
 

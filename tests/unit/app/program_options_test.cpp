@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "pedicel/io/atomic_file.h"
 #include "pedicel/io/csv.h"
 #include "program_case.h"
 
@@ -260,12 +261,75 @@ TEST_F(ProgramOptions, NumbersInFilesHaveTheBoundsOfTheCommandLine) {
   expect_refused("--set material.youngs_modulus=0", "expected a number > 0", 3);
 }
 
+// A grid whose plants differ, each by its own draw.
+class Grid : public ProgramOptions {
+ protected:
+  void SetUp() override {
+    ProgramOptions::SetUp();
+    write_grid(
+        3,
+        "place.turn: {low: -3, high: 3}, place.lean: {low: 0.1, high: 0.3}, "
+        "place.towards: {low: -3, high: 3}, shape.scale: {low: 0.8, high: 1.2}, "
+        "fruits.share: {distribution: choice, values: [0, 1]}, "
+        "material.youngs_modulus: {distribution: lognormal, mean: 1.0e+9, deviation: 2.0e+8}");
+  }
+  std::string read(const std::string& name) { return io::read_file(path(name)); }
+  void write_grid(int count, const std::string& vary) {
+    write("grid.scene.yaml",
+          "format: pedicel-scene\nversion: 1\nname: field\npurpose: plants that differ\nsee: they "
+          "do\nduration: 0.05\nplants:\n  - {name: p, file: fruit.plant.yaml, position: [0, 0, "
+          "0.1], repeat: {count: [" +
+              std::to_string(count) + ", 2], spacing: [0.5, 0.6], vary: {" + vary +
+              "}}}\nground: {}\ncameras:\n  - {name: front, eye: [3, 0, 0.5]}\nexpect:\n  - "
+              "{quantity: detached_count, above: -1}\n");
+  }
+};
+
+TEST_F(Grid, DiffersFromSeedToSeedAndStaysForOne) {
+  const std::string once = hash("", "grid.scene.yaml");
+  EXPECT_EQ(hash("", "grid.scene.yaml"), once);
+  EXPECT_NE(hash("--seed 5", "grid.scene.yaml"), once);
+}
+
+TEST_F(Grid, IsSavedPlantByPlantAndRunsToTheSameState) {
+  const std::string once = hash("", "grid.scene.yaml");
+  const std::string save = path("grid.scene.yaml") + " --save-plants " + path("apart");
+  ASSERT_EQ(run(save), 0) << err_;
+  EXPECT_THAT(out_, HasSubstr("6 plants and "));
+  EXPECT_NE(read("apart/p_0.plant.yaml"), read("apart/p_5.plant.yaml"));
+  EXPECT_EQ(hash("", "apart/field.scene.yaml"), once);
+  EXPECT_EQ(run(save), 2) << "what is there is not written over";
+  EXPECT_THAT(err_, HasSubstr("p_0.plant.yaml is there already, expected a new name"));
+  // What was drawn for one does not hang on how many there are.
+  write_grid(2, "shape.scale: {low: 0.8, high: 1.2}");
+  ASSERT_EQ(run(path("grid.scene.yaml") + " --save-plants " + path("few")), 0) << err_;
+  write_grid(3, "shape.scale: {low: 0.8, high: 1.2}");
+  ASSERT_EQ(run(path("grid.scene.yaml") + " --save-plants " + path("many")), 0) << err_;
+  EXPECT_EQ(read("few/p_1.plant.yaml"), read("many/p_1.plant.yaml"));
+}
+
+TEST_F(Grid, RefusesKeysAndValuesThatNoPlantHas) {
+  const auto refused = [&](const std::string& vary, const std::string& words) {
+    write_grid(2, vary);
+    EXPECT_EQ(run("--headless " + path("grid.scene.yaml") + " --out " + path("out")), 3) << vary;
+    EXPECT_THAT(err_, HasSubstr("grid.scene.yaml:8:")) << vary;
+    EXPECT_THAT(err_, HasSubstr(words)) << vary;
+  };
+  refused("place.twist: {low: 0, high: 1}",
+          "vary: unknown key \"place.twist\", expected one of: "
+          "place.turn, place.lean");
+  refused("shape.scale: {low: -2, high: -1}", "expected a number");
+  refused("fruits.share: {distribution: choice, values: [many]}", "fruits.share is \"many\"");
+  refused("material.density: {low: -2, high: -1}", "material.density is \"-1");
+  refused("shape.scale: {low: 1}", "high");
+}
+
 TEST_F(ProgramOptions, HelpNamesThemAll) {
   ASSERT_EQ(run("--help"), 0);
   for (const char* option :
        {"--steps", "--log ", "--log-rate", "--events", "--trajectory", "--compare", "--tolerance",
-        "--save-state", "--load-state", "--print-scene", "-v ", "--param-sweep", "--seed",
-        "--paused", "--camera", "143 SIGTERM"})
+        "--save-state", "--load-state", "--print-scene", "--save-plants", "-v ", "--param-sweep",
+        "--seed", "--paused", "--camera", "143 SIGTERM"})
     EXPECT_THAT(out_, HasSubstr(option));
 }
 

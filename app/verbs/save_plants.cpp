@@ -1,0 +1,51 @@
+#include "pedicel/app/verbs/save_plants.h"
+
+#include "pedicel/app/run/scene_plants.h"
+#include "pedicel/io/atomic_file.h"
+#include "pedicel/plant/plant_file.h"
+#include "pedicel/world/scene_writer.h"
+#include "pedicel/world/settings.h"
+
+namespace pedicel::app {
+
+namespace {
+
+void expect_new(const std::filesystem::path& path) {
+  if (std::filesystem::exists(path))
+    throw UsageError("--save-plants: " + path.string() + " is there already, expected a new name");
+}
+
+}  // namespace
+
+std::string save_plants(const world::Scene& scene, const SimulationOptions& options,
+                        const std::filesystem::path& folder) {
+  // They name an entry, and here each of its plants becomes an entry.
+  if (!scene.effects.empty())
+    throw UsageError("--save-plants: the scene has effects, expected a scene without");
+  const world::Scene drawn = scene.vary.empty() ? scene : world::drawn_scene(scene);
+  Diagnostics diagnostics;
+  const std::vector<PlacedPlantFile> plants = plant_files(drawn, options, diagnostics);
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+
+  const std::string name = scene.name.empty() ? "plants" : scene.name;
+  const std::filesystem::path scene_file = folder / (name + ".scene.yaml");
+  world::Scene apart = drawn;
+  apart.plants.clear();
+  for (const PlacedPlantFile& one : plants) {
+    world::ScenePlant& entry = apart.plants.emplace_back();
+    entry.name = one.file.name;
+    entry.file = folder / (one.file.name + ".plant.yaml");
+    entry.pose = one.pose;
+    // Nothing is written where one of them is in the way.
+    expect_new(entry.file);
+  }
+  expect_new(scene_file);
+  std::filesystem::create_directories(folder);
+  for (std::size_t i = 0; i < plants.size(); ++i)
+    plant::write_plant_file(apart.plants[i].file, plants[i].file);
+  // Last, so that a scene that is there has all its plants.
+  io::write_file_atomically(scene_file, world::scene_text(apart, folder));
+  return std::to_string(plants.size()) + " plants and " + scene_file.string() + " written";
+}
+
+}  // namespace pedicel::app
