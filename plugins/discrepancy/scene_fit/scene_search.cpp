@@ -49,6 +49,13 @@ double allowance(const plant::MaterialKey& number, const SceneSearchSettings& ho
                                                      : how.modulus_known_to;
 }
 
+// Whether trials that a model was not fitted to agree with it.
+bool holds_elsewhere(const std::optional<double>& excess, const std::optional<double>& nominal,
+                     const SceneSearchSettings& how) {
+  return !excess || !nominal ||
+         *excess <= how.held_out_allowance * std::max(how.floor, how.solvers_share * *nominal);
+}
+
 // 1, relative: how well a plant's file says it knows a number of its material; 0: it does not say.
 double stated_of(const SceneExperiment& experiment, const plant::MaterialKey& number) {
   double most = 0.0;
@@ -202,13 +209,7 @@ class Search {
   }
   bool is_enough(const SceneCandidate& one) const {
     // Both must hold: fitted trials alone would let many numbers win.
-    return one.excess <= allowed() && holds_elsewhere(one.check_excess);
-  }
-  // Whether trials that a model was not fitted to agree with it.
-  bool holds_elsewhere(const std::optional<double>& excess) const {
-    return !excess || !found_.nominal_check ||
-           *excess <= how_.held_out_allowance *
-                          std::max(how_.floor, how_.solvers_share * *found_.nominal_check);
+    return one.excess <= allowed() && holds_elsewhere(one.check_excess, found_.nominal_check, how_);
   }
 
   // Extends a model by each cause that it has not; refits those with the least linear cost.
@@ -389,7 +390,8 @@ class Search {
       found_.material = material_of(found_.candidates.front().fit);
       // Against the floor alone, and not against a share of the misfit: the baseline is what all
       // shares are taken of. Held-out trials may object, as something may act in one of them alone.
-    } else if (found_.baseline_excess <= how_.floor && holds_elsewhere(found_.baseline_check)) {
+    } else if (found_.baseline_excess <= how_.floor &&
+               holds_elsewhere(found_.baseline_check, found_.nominal_check, how_)) {
       found_.outcome = Outcome::adequate;
       found_.material = material_of(found_.baseline);
     } else {
