@@ -1,6 +1,7 @@
 #include "pedicel/app/verbs/save_plants.h"
 
 #include "pedicel/app/run/scene_plants.h"
+#include "pedicel/core/check.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/plant/plant_file.h"
 #include "pedicel/world/scene_writer.h"

@@ -288,8 +288,7 @@ void BladeContact::keep_sides() {
   for (std::size_t i = 0; i < old_sides_.size(); ++i)
     if (old_sides_[i].is_through) candidates_.push_back(old_candidates_[i]);
   std::ranges::sort(candidates_);
-  const auto twice = std::ranges::unique(candidates_);
-  candidates_.erase(twice.begin(), twice.end());
+  candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
   std::erase_if(candidates_,
                 [&](const Candidate& pair) { return std::ranges::binary_search(left_out_, pair); });
   sides_.assign(candidates_.size(), {});

@@ -235,7 +235,9 @@ void Canopy::step(std::span<PlantStep> plants, double dt, const Vec3& gravity, T
   const bool state_changed = any(&PlantStep::state_changed);
   fresh_ = false;
   if (model_changed) join(plants);
-  models_ = models_of(plants);
+  // Into the list that is there: a step does not allocate.
+  models_.clear();
+  for (const PlantStep& plant : plants) models_.push_back(plant.model);
   joined_->read_supports(models_);
   read(plants);
   if (state_changed) {
