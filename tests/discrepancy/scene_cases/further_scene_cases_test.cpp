@@ -5,15 +5,16 @@
 namespace pedicel::scene_case {
 namespace {
 
-// More cases of `scene_bench --seed 1`: latency with another modulus, a sensor's gain, a focal
-// length with another modulus.
+// More cases of `scene_bench --seed 1`: latency with another modulus, a reaction, a sensor's bias
+// with another modulus, a sensor's gain, a camera's place, its focal length with another modulus,
+// its lens.
 class FurtherSceneCases : public testing::TestWithParam<int> {};
 
 TEST_P(FurtherSceneCases, ComesOutRight) {
   expect_right(1, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Something, FurtherSceneCases, testing::Values(11, 15, 17),
+INSTANTIATE_TEST_SUITE_P(Something, FurtherSceneCases, testing::Values(11, 12, 14, 15, 16, 17, 18),
                          [](const testing::TestParamInfo<int>& info) {
                            return test_name(info.param);
                          });
