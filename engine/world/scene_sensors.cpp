@@ -17,6 +17,7 @@ constexpr io::Bounds sensor_rates{1e-3, 1e4};
 
 std::vector<std::string> sensor_words() {
   std::vector<std::string> words;
+  words.reserve(sensor_count);
   for (int s = 0; s < sensor_count; ++s) words.emplace_back(name_of(static_cast<Sensor>(s)));
   return words;
 }
