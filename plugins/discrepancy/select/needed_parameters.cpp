@@ -59,7 +59,7 @@ std::vector<Hypothesis> exchanged(const FitSummary& base, const FitSummary& mode
 // The modulus last: where either of two would do, it is the one that people know least.
 std::vector<std::string> in_order_of_doubt() {
   std::vector<const effects::EffectDefinition*> all = effects::material_factors();
-  std::ranges::stable_partition(all, [](const effects::EffectDefinition* one) {
+  std::stable_partition(all.begin(), all.end(), [](const effects::EffectDefinition* one) {
     return one->material->role != MaterialRole::stiffness;
   });
   std::vector<std::string> names;
