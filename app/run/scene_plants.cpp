@@ -22,6 +22,7 @@ using world::ScenePlant;
 
 /// Rod elements of a scene, some 1.5 kB each in the solver.
 constexpr double most_elements = 500'000;
+constexpr std::size_t most_files = 10'000;  // plants that are written one by one
 
 std::optional<plant::PlantFile> read_file(const ScenePlant& wanted, Diagnostics& diagnostics,
                                           std::vector<std::string>& notes) {
@@ -74,9 +75,21 @@ class Builder {
 
   /// The same plants as files, without what the scene's effects change.
   void add_files(const ScenePlant& wanted, std::vector<PlacedPlantFile>& files) {
+    const std::size_t count =
+        files.size() + static_cast<std::size_t>(wanted.repeat[0]) * wanted.repeat[1];
+    // Before one of them is made: a grid may ask for 10,000 times 10,000.
+    if (count > most_files) {
+      diagnostics_.error(wanted.where, "plant \"" + wanted.name + "\": makes " +
+                                           std::to_string(count) +
+                                           " files with those before it, expected at most " +
+                                           std::to_string(most_files));
+      return;
+    }
     const std::optional<plant::PlantFile> file = file_of(wanted);
-    for (int i = 0; file && i < wanted.repeat[0] * wanted.repeat[1]; ++i)
+    for (int i = 0; file && i < wanted.repeat[0] * wanted.repeat[1]; ++i) {
       files.push_back(of_grid(*file, wanted, i));
+      files.back().folder = source_of(wanted).parent_path();
+    }
   }
 
   std::vector<ScenePlantModel> plants;
@@ -98,7 +111,7 @@ class Builder {
   }
 
   PlacedPlantFile of_grid(const plant::PlantFile& file, const ScenePlant& wanted, int i) {
-    PlacedPlantFile one{file, wanted.pose};
+    PlacedPlantFile one{file, wanted.pose, {}};
     one.pose.position.x() += wanted.spacing.x() * (i % wanted.repeat[0]);
     one.pose.position.y() += wanted.spacing.y() * (i / wanted.repeat[0]);
     // Names in logs and expectations must tell the copies apart.

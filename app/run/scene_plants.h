@@ -19,7 +19,8 @@ struct ScenePlantModel {
 /// A plant of a scene as a file of its own, and where it stands.
 struct PlacedPlantFile {
   plant::PlantFile file;
-  Pose pose;  ///< X_WP
+  Pose pose;                     ///< X_WP
+  std::filesystem::path folder;  ///< of the file that it was read from
 };
 
 /// The file that a scene's plant is read from: an absent optional one's fallback, which may be

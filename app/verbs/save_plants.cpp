@@ -16,6 +16,16 @@ void expect_new(const std::filesystem::path& path) {
     throw UsageError("--save-plants: " + path.string() + " is there already, expected a new name");
 }
 
+// Leaf templates that lie beside a plant come along; shipped ones are found from everywhere.
+void take_templates(const PlacedPlantFile& plant, const std::filesystem::path& folder) {
+  for (const plant::PlantLeaf& leaf : plant.file.leaves) {
+    const std::filesystem::path name = leaf.leaf_template + ".leaf.yaml";
+    const std::filesystem::path to = folder / name;
+    if (std::filesystem::exists(plant.folder / name) && !std::filesystem::exists(to))
+      io::write_file_atomically(to, io::read_file(plant.folder / name));
+  }
+}
+
 }  // namespace
 
 std::string save_plants(const world::Scene& scene, const SimulationOptions& options,
@@ -28,8 +38,10 @@ std::string save_plants(const world::Scene& scene, const SimulationOptions& opti
   const std::vector<PlacedPlantFile> plants = plant_files(drawn, options, diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
 
-  const std::string name = scene.name.empty() ? "plants" : scene.name;
-  const std::filesystem::path scene_file = folder / (name + ".scene.yaml");
+  // After the scene's file, since a scene's own name may hold any character.
+  const std::string name = scene.file.filename().string();
+  const std::filesystem::path scene_file =
+      folder / (name.ends_with(".scene.yaml") ? name : "plants.scene.yaml");
   world::Scene apart = drawn;
   apart.plants.clear();
   for (const PlacedPlantFile& one : plants) {
@@ -42,8 +54,10 @@ std::string save_plants(const world::Scene& scene, const SimulationOptions& opti
   }
   expect_new(scene_file);
   std::filesystem::create_directories(folder);
-  for (std::size_t i = 0; i < plants.size(); ++i)
+  for (std::size_t i = 0; i < plants.size(); ++i) {
+    take_templates(plants[i], folder);
     plant::write_plant_file(apart.plants[i].file, plants[i].file);
+  }
   // Last, so that a scene that is there has all its plants.
   io::write_file_atomically(scene_file, world::scene_text(apart, folder));
   return std::to_string(plants.size()) + " plants and " + scene_file.string() + " written";

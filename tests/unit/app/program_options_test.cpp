@@ -297,7 +297,7 @@ TEST_F(Grid, IsSavedPlantByPlantAndRunsToTheSameState) {
   ASSERT_EQ(run(save), 0) << err_;
   EXPECT_THAT(out_, HasSubstr("6 plants and "));
   EXPECT_NE(read("apart/p_0.plant.yaml"), read("apart/p_5.plant.yaml"));
-  EXPECT_EQ(hash("", "apart/field.scene.yaml"), once);
+  EXPECT_EQ(hash("", "apart/grid.scene.yaml"), once);
   EXPECT_EQ(run(save), 2) << "what is there is not written over";
   EXPECT_THAT(err_, HasSubstr("p_0.plant.yaml is there already, expected a new name"));
   // What was drawn for one does not hang on how many there are.
@@ -306,6 +306,25 @@ TEST_F(Grid, IsSavedPlantByPlantAndRunsToTheSameState) {
   write_grid(3, "shape.scale: {low: 0.8, high: 1.2}");
   ASSERT_EQ(run(path("grid.scene.yaml") + " --save-plants " + path("many")), 0) << err_;
   EXPECT_EQ(read("few/p_1.plant.yaml"), read("many/p_1.plant.yaml"));
+  write_grid(9000, "shape.scale: {low: 0.8, high: 1.2}");
+  EXPECT_EQ(run(path("grid.scene.yaml") + " --save-plants " + path("huge")), 3);
+  EXPECT_THAT(err_, HasSubstr("makes 18000 files with those before it, expected at most 10000"));
+}
+
+TEST_F(Grid, TakesLeafTemplatesAlong) {
+  write("own.leaf.yaml",
+        "format: pedicel-leaf\nversion: 1\nname: own\nareal_density: 0.25\nmaterial: "
+        "{youngs_modulus: 1.5e8, poisson_ratio: 0.35, density: 950, damping_time: "
+        "0.01}\npetiole_radius: 0.0125\nvein_radius: 0.005\nvertices: [[0, 0], [0.5, 0], [1, 0], "
+        "[0.6, 0.3]]\nedges:\n  - {ends: [0, 1]}\n  - {ends: [1, 2]}\n  - {ends: [1, "
+        "3]}\ntriangles: [[1, 2, 3]]\n");
+  write("fruit.plant.yaml",
+        std::string(bent_stem_text) +
+            "leaves:\n  - {name: l, curve: stem, at: 1.0, template: own, normal: [0, 0, 1], size: "
+            "0.05}\n");
+  const std::string once = hash("", "grid.scene.yaml");
+  ASSERT_EQ(run(path("grid.scene.yaml") + " --save-plants " + path("apart")), 0) << err_;
+  EXPECT_EQ(hash("", "apart/grid.scene.yaml"), once);
 }
 
 TEST_F(Grid, RefusesKeysAndValuesThatNoPlantHas) {
