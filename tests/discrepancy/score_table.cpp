@@ -103,6 +103,8 @@ void add_effect_rows(const Counter& count, std::vector<TableRow>& rows) {
   rows.push_back(row_of("- 4 x the smallest and above",
                         count([](const Score& s) { return is(s, "effect") && s.times >= 4.0; },
                               called(Call::right))));
+  rows.push_back(row_of("- and modulus and damping, where they were off as well",
+                        count(effect, named_exactly), "93 %"));
   const auto parted = [=](const Score& s) { return effect(s) && !ties(s); };
   const auto tied = [=](const Score& s) { return effect(s) && ties(s); };
   rows.push_back(row_of("- where the data part the true cause from every other",
@@ -141,6 +143,8 @@ void add_set_rows(const std::vector<Score>& scores, const Counter& count,
   const auto pair = [](const Score& s) { return is(s, "pair"); };
   const auto right = [](const Score& s) { return s.call == Call::right; };
   rows.push_back(row_of("two effects, both named", count(pair, right), "60 %", "85 %"));
+  rows.push_back(row_of("- and modulus and damping, where they were off as well",
+                        count(pair, named_exactly)));
   rows.push_back(row_of("- one of them, nothing wrong",
                         count(pair, [](const Score& s) { return s.call == Call::partial; })));
   rows.push_back(row_of("- a wrong name with confidence",

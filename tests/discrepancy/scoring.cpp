@@ -119,6 +119,7 @@ Score blank(const HiddenCase& hidden) {
   s.times = hidden.order.size;
   s.told_apart = hidden.order.told_apart;
   s.hidden = hidden.order.hidden;
+  s.off_too = names_of(hidden.refitted);
   return s;
 }
 
@@ -136,11 +137,20 @@ const char* name_of(Call call) {
   return call_names[static_cast<std::size_t>(call)];
 }
 
+bool named_exactly(const Score& s) {
+  if (s.outcome != discrepancy::to_string(Outcome::named)) return false;
+  Names wanted = s.hidden, told = s.said;
+  wanted.insert(wanted.end(), s.off_too.begin(), s.off_too.end());
+  told.insert(told.end(), s.details.begin(), s.details.end());
+  return within(s.said, wanted) && within(wanted, told);
+}
+
 Score score(const HiddenCase& hidden, const Verdict& verdict, const TrueError& truth) {
   Score s = blank(hidden);
   s.outcome = discrepancy::to_string(verdict.outcome);
   std::vector<NamedCause> found = verdict.causes;
   for (const NamedCause& cause : verdict.causes) s.said.push_back(cause.name);
+  for (const NamedCause& detail : verdict.details) s.details.push_back(detail.name);
   // What was hidden and is told as a detail was found.
   for (const NamedCause& detail : verdict.details)
     if (verdict.outcome == Outcome::named && contains(names_of(hidden.causes), detail.name)) {
@@ -183,6 +193,8 @@ std::string to_line(const Score& s) {
                              {"told_apart", s.told_apart},
                              {"verdict", s.outcome},
                              {"said", s.said},
+                             {"off_too", s.off_too},
+                             {"details", s.details},
                              {"call", name_of(s.call)},
                              {"gain_share", number(s.gain_share.value_or(NAN))},
                              {"sizes", sizes},
@@ -221,6 +233,8 @@ Score from_line(const std::string& line) {
   json.at("fault").get_to(s.fault);
   s.times = number_of(json.at("times_smallest"));
   s.told_apart = json.value("told_apart", false);
+  s.off_too = json.value("off_too", Names{});  // older lines have neither
+  s.details = json.value("details", Names{});
   s.evidence = number_of(json.at("evidence"));
   s.alarm = number_of(json.at("alarm"));
   s.seconds = number_of(json.at("seconds"));

@@ -43,6 +43,8 @@ struct Score {
   /// That size tells it from every other cause, too; false: it is seen, no more (older lines).
   bool told_apart = false;
   std::vector<std::string> hidden, said;
+  /// Modulus and damping where they were off as well; and what the verdict tells as a detail.
+  std::vector<std::string> off_too, details;
   Call call = Call::missed;
   /// Share of the true model's gain on trials kept back; absent where the true model gains less
   /// than 10 noise units there, or nothing was named.
@@ -66,6 +68,10 @@ struct Score {
   double seconds = 0.0;
   std::string fault;  ///< why there is no verdict; empty: there is one
 };
+
+/// Whether known effects were named, all that was off with them, and nothing else. What is told as a
+/// detail may be among it, and is no name of its own.
+bool named_exactly(const Score& score);
 
 /// Scores `verdict` of the case `hidden`.
 Score score(const HiddenCase& hidden, const discrepancy::Verdict& verdict, const TrueError& truth);
