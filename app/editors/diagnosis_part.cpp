@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/measured/diagnosis_job.h"
+#include "pedicel/app/session/measured/measured_scene.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/ui.h"
@@ -39,31 +40,29 @@ std::string listed(const std::vector<std::string>& words) {
 
 void DiagnosisPart::draw(Ui& ui) {
   heading(ui, "Diagnosis");
-  const MeasuredData& data = ui.session.measured().data();
-  if (data.is_diagnosing())
+  if (ui.session.measured().is_diagnosing())
     draw_progress(ui);
   else if (wide_button("Find out what is wrong"))
     ui.run(Command("diagnose", {}));
-  if (of_ != data.diagnosis()) {
-    of_ = data.diagnosis();
-    card_ = of_ ? card_of(*of_) : DiagnosisCard{};
-  }
+  if (of_ == ui.session.measured().diagnoses()) return;
+  of_ = ui.session.measured().diagnoses();
+  card_ = ui.session.measured().card();
 }
 
 void DiagnosisPart::draw_result(Ui& ui) {
-  if (of_) draw_card(ui);
+  if (!card_.headline.empty()) draw_card(ui);
 }
 
 void DiagnosisPart::draw_progress(Ui& ui) {
-  const DiagnosisProgress now = ui.session.measured().data().progress();
+  const DiagnosisProgress now = ui.session.measured().progress();
   const std::string share = std::to_string(static_cast<int>(100.0 * now.share)) + " %";
   ImGui::ProgressBar(static_cast<float>(now.share), ImVec2(-1, 0), share.c_str());
   paragraph(now.doing.empty() ? "beginning" : now.doing);
   std::string time = seconds_text(now.seconds) + " so far";
   if (now.left) time += ", about " + seconds_text(*now.left) + " left";
   note(time);
-  ImGui::BeginDisabled(ui.session.measured().data().is_cancelling());
-  if (wide_button(ui.session.measured().data().is_cancelling() ? "Cancelling ..." : "Cancel"))
+  ImGui::BeginDisabled(ui.session.measured().is_cancelling());
+  if (wide_button(ui.session.measured().is_cancelling() ? "Cancelling ..." : "Cancel"))
     ui.run(Command("cancel diagnosis", {}));
   ImGui::EndDisabled();
   if (!now.found.empty()) note(now.found.back());
@@ -123,25 +122,25 @@ void DiagnosisPart::draw_competing_models(Ui& ui) {
 
 void DiagnosisPart::draw_buttons(Ui& ui) {
   ImGui::Spacing();
-  const auto extended = ui.session.measured().data().extended_plant();
-  const int plant = ui.session.measured().plant();
-  const bool accepted =
-      extended && plant >= 0 &&
-      ui.session.document().plants[static_cast<std::size_t>(plant)].file->effects ==
-          extended->effects;
-  if (accepted) {
-    paragraph("The plant has the effects that were found.", &palette().good);
+  using Acceptance = SessionMeasured::Acceptance;
+  const bool of_scene = ui.session.measured().scene().experiment() != nullptr;
+  const Acceptance acceptance = ui.session.measured().acceptance();
+  if (acceptance == Acceptance::accepted) {
+    paragraph(of_scene ? "The scene has the effects that were found."
+                       : "The plant has the effects that were found.",
+              &palette().good);
     ImGui::BeginDisabled(!ui.session.history().can_undo());
     if (wide_button("Undo")) ui.ask(Action::undo);
     ImGui::EndDisabled();
   } else {
-    ImGui::BeginDisabled(!extended || plant < 0);
-    if (wide_button("Accept the extended plant")) ui.run(Command("accept diagnosis", {}));
+    ImGui::BeginDisabled(acceptance == Acceptance::impossible);
+    if (wide_button(of_scene ? "Accept the extended scene" : "Accept the extended plant"))
+      ui.run(Command("accept diagnosis", {}));
     ImGui::EndDisabled();
   }
   if (wide_button("Write report")) {
     const std::string folder =
-        "diagnosis_" + ui.session.measured().data().experiment()->folder.filename().string();
+        "diagnosis_" + ui.session.measured().folder().filename().string();
     if (ui.run(Command("write report", {{"folder", folder}}))) ui.say("written to " + folder);
   }
 }

@@ -25,7 +25,7 @@ class DiagnosisPart {
   void draw_next(Ui& ui);
   void draw_buttons(Ui& ui);
 
-  const discrepancy::Diagnosis* of_ = nullptr;  // that the card is about
+  int of_ = 0;  // SessionMeasured::diagnoses() that the card is about
   DiagnosisCard card_;
 };
 

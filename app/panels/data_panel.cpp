@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "pedicel/app/editors/diagnosis_part.h"
 #include "pedicel/app/panels/panel.h"
+#include "pedicel/app/panels/scene_data.h"
 #include "pedicel/app/session/measured/experiment_reading.h"
 #include "pedicel/app/session/measured/measured_instant.h"
+#include "pedicel/app/session/measured/measured_scene.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/plot.h"
 #include "pedicel/app/ui/theme.h"
@@ -29,6 +32,38 @@ void begin_ink(const render::Colour& colour) {
   ImGui::PushStyleColor(ImGuiCol_Text, ink(colour));
 }
 
+/// What both kinds of experiment have; without trials: none is open.
+struct OpenExperiment {
+  std::string title;
+  std::vector<std::string> trials;
+  double end = 0.0;       // s, of the trial that is shown
+  int simulated = 0;      // trials of models that are still to come
+  bool stands = true;     // the document has what was measured
+  bool of_scene = false;  // a robot at plants
+};
+
+OpenExperiment open_experiment(const Ui& ui) {
+  OpenExperiment open;
+  const SessionMeasured& measured = ui.session.measured();
+  const auto trial = static_cast<std::size_t>(std::max(0, ui.view.measured.trial));
+  if (const discrepancy::SceneExperiment* scene = measured.scene().experiment()) {
+    open.title = scene->title;
+    for (const auto& one : scene->trials) open.trials.push_back(one.name);
+    if (trial < scene->trials.size()) open.end = scene->trials[trial].duration();
+    open.simulated = measured.scene().still_simulated();
+    open.stands = measured.has_scene();
+    open.of_scene = true;
+  } else if (const discrepancy::Experiment* plant = measured.data().experiment()) {
+    open.title = plant->title;
+    for (const auto& one : plant->trials) open.trials.push_back(one.name);
+    if (trial < plant->trials.size() && !plant->trials[trial].markers.time.empty())
+      open.end = plant->trials[trial].markers.time.back();
+    open.simulated = measured.data().still_simulated();
+    open.stands = measured.plant() >= 0;
+  }
+  return open;
+}
+
 /// Measured data of the plant: through time, against the models, and what a diagnosis makes of it.
 class DataPanel : public Panel {
  public:
@@ -38,20 +73,28 @@ class DataPanel : public Panel {
   void draw(Ui& ui) override {
     follow(ui);
     open_row(ui);
-    const discrepancy::Experiment* experiment = ui.session.measured().data().experiment();
     if (reading(ui)) return;
-    if (!experiment) {
-      note("Measured markers over the plant: open an experiment, the folder with experiment.yaml.");
+    OpenExperiment open = open_experiment(ui);
+    if (open.trials.empty()) {
+      note(
+          "Measured data over the plant, or over a robot at plants: open an experiment, the folder "
+          "with experiment.yaml.");
       return;
     }
-    title(ui, *experiment);
-    if (!ui.session.measured().data().experiment()) return;  // closed
+    title(ui, open);
+    open = open_experiment(ui);
+    if (open.trials.empty()) return;  // closed
     diagnosis_.draw(ui);
-    trial_and_time(ui, *experiment);
-    models(ui);
-    markers(ui, *experiment);
-    plot(ui, *experiment);
-    shown(ui);
+    trial_and_time(ui, open);
+    if (open.of_scene) {
+      scene_.draw(ui);
+    } else {
+      const discrepancy::Experiment& experiment = *ui.session.measured().data().experiment();
+      models(ui);
+      markers(ui, experiment);
+      plot(ui, experiment);
+      shown(ui);
+    }
     diagnosis_.draw_result(ui);
   }
 
@@ -62,31 +105,33 @@ class DataPanel : public Panel {
   void follow(Ui& ui) {
     MeasuredView& view = ui.view.measured;
     const MeasuredData& data = ui.session.measured().data();
-    if (view.number != data.number()) {
+    const MeasuredScene& scene = ui.session.measured().scene();
+    if (view.number != data.number() || view.scene != scene.number()) {
       const MeasuredView fresh;
-      view.number = data.number();
-      view.trial = view.marker = view.model = fresh.model;
+      view.number = data.number(), view.scene = scene.number();
+      view.trial = view.marker = view.model = view.instrument = view.column = fresh.model;
+      view.camera = fresh.camera;
       view.time = 0.0, view.playing = false;
-      if (data.experiment()) ui.ask(Action::frame_all);
-      if (data.experiment()) path_ = opened_ = data.experiment()->folder.string();
+      const std::filesystem::path folder = ui.session.measured().folder();
+      if (!folder.empty()) ui.ask(Action::frame_all);
+      if (!folder.empty()) path_ = opened_ = folder.string();
       plot_ = {};
     }
-    if (found_ != data.diagnosis()) {
-      found_ = data.diagnosis();
-      if (found_ && data.has(discrepancy::extended)) view.model = discrepancy::extended;
+    if (found_ != ui.session.measured().diagnoses()) {
+      found_ = ui.session.measured().diagnoses();
+      extends_ = true;
+    }
+    // The extended model of a scene is simulated after its diagnosis.
+    if (extends_ && (data.has(discrepancy::extended) || scene.has(discrepancy::extended))) {
+      view.model = discrepancy::extended;
+      extends_ = false;
     }
     const double passed = std::clamp(ui.now - last_, 0.0, 0.1);
     last_ = ui.now;
-    if (!view.playing || !data.experiment()) return;
+    if (!view.playing) return;
     view.time += passed;
-    const double end = end_of(ui);
+    const double end = open_experiment(ui).end;
     if (view.time > end) view.time = end > 0.0 ? std::fmod(view.time, end) : 0.0;
-  }
-
-  static double end_of(const Ui& ui) {
-    const auto& trials = ui.session.measured().data().experiment()->trials;
-    const auto& time = trials[static_cast<std::size_t>(ui.view.measured.trial)].markers.time;
-    return time.empty() ? 0.0 : time.back();
   }
 
   void open_row(Ui& ui) {
@@ -96,7 +141,7 @@ class DataPanel : public Panel {
     ImGui::SameLine();
     asked |= ImGui::Button("Open");
     if (asked && !path_.empty() &&
-        (path_ != opened_ || !ui.session.measured().data().experiment())) {
+        (path_ != opened_ || ui.session.measured().folder().empty())) {
       const Result result = ui.session.run(Command("open experiment", {{"folder", path_}}));
       opened_ = result.ok ? path_ : "";
     }
@@ -122,28 +167,29 @@ class DataPanel : public Panel {
     return true;
   }
 
-  void title(Ui& ui, const discrepancy::Experiment& experiment) {
+  void title(Ui& ui, const OpenExperiment& open) {
     heading(ui, "Trial");
-    if (!experiment.title.empty()) note(experiment.title);
-    const int left = ui.session.measured().data().still_simulated();
-    if (left > 0) note("simulating: " + std::to_string(left) + " trials to go");
-    if (ui.session.measured().plant() < 0)
-      note("The document's plant is not as it was measured (any more).");
+    if (!open.title.empty()) note(open.title);
+    if (open.simulated > 0)
+      note("simulating: " + std::to_string(open.simulated) + " trials to go");
+    if (!open.stands)
+      note(open.of_scene ? "The document's plants are not as they were measured (any more)."
+                         : "The document's plant is not as it was measured (any more).");
     if (wide_button("Close experiment")) ui.run(Command("close experiment", {}));
-    tip("Leaves the measured data; the plant stays");
+    tip("Leaves the measured data; what stands in the scene stays");
   }
 
-  void trial_and_time(Ui& ui, const discrepancy::Experiment& experiment) {
+  void trial_and_time(Ui& ui, const OpenExperiment& open) {
     MeasuredView& view = ui.view.measured;
-    const auto& trials = experiment.trials;
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::BeginCombo("##trial", trials[static_cast<std::size_t>(view.trial)].name.c_str())) {
-      for (int t = 0; t < static_cast<int>(trials.size()); ++t) {
+    if (ImGui::BeginCombo("##trial", open.trials[static_cast<std::size_t>(view.trial)].c_str())) {
+      for (int t = 0; t < static_cast<int>(open.trials.size()); ++t) {
         ImGui::PushID(t);
-        if (ImGui::Selectable(trials[static_cast<std::size_t>(t)].name.c_str(), t == view.trial)) {
+        if (ImGui::Selectable(open.trials[static_cast<std::size_t>(t)].c_str(), t == view.trial)) {
           view.trial = t;
-          view.time = std::min(view.time, end_of(ui));
+          view.time = std::min(view.time, open_experiment(ui).end);
           plot_.follows = true;
+          scene_.follow();
         }
         ImGui::PopID();
       }
@@ -155,7 +201,7 @@ class DataPanel : public Panel {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     float time = static_cast<float>(view.time);
-    if (ImGui::SliderFloat("##time", &time, 0.0f, static_cast<float>(end_of(ui)), "%.3f s"))
+    if (ImGui::SliderFloat("##time", &time, 0.0f, static_cast<float>(open.end), "%.3f s"))
       view.time = time, view.playing = false;
   }
 
@@ -291,7 +337,9 @@ class DataPanel : public Panel {
   PlotView plot_;
   int axis_ = 0;
   double last_ = 0.0;
-  const discrepancy::Diagnosis* found_ = nullptr;  // whose extended model was brought to the front
+  int found_ = 0;         // SessionMeasured::diagnoses() that was noticed
+  bool extends_ = false;  // its extended model is to be brought to the front
+  SceneData scene_;
   DiagnosisPart diagnosis_;
 };
 

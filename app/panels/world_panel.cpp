@@ -6,7 +6,6 @@
 #include "pedicel/app/panels/panel.h"
 #include "pedicel/app/plants/rod_options.h"
 #include "pedicel/app/session/document/effective_plant.h"
-#include "pedicel/app/session/measured/measured_data.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/theme.h"
 #include "pedicel/app/ui/ui.h"
@@ -121,10 +120,10 @@ class WorldPanel : public Panel {
   }
 
   static void experiment(Ui& ui) {
-    if (!ui.session.measured().data().experiment()) return;
+    if (ui.session.measured().folder().empty()) return;
     heading(ui, "Experiment");
     if (wide_button("Close experiment")) ui.run(Command("close experiment", {}));
-    tip("Leaves the measured data; the plant stays");
+    tip("Leaves the measured data; what stands in the scene stays");
   }
 
   static void whole_plant(Ui& ui, const std::string& plant) {

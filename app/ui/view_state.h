@@ -17,6 +17,7 @@ enum class ColourMap { none, strain, margin, contact, residual };
 /// What is shown of a measured experiment.
 struct MeasuredView {
   int number = 0;  ///< MeasuredData::number() that this was chosen for
+  int scene = 0;   ///< MeasuredScene::number(), likewise
   int trial = 0;
   int model = 0;  ///< discrepancy::Model
   int marker = 0;
@@ -28,6 +29,9 @@ struct MeasuredView {
   bool shape = true;            ///< the plant as the model has it, in place of the running one
   bool side_by_side = false;    ///< all models beside each other
   double residual_scale = 0.0;  ///< m, upper end of the residual colours; follows the model
+  int instrument = 0;           ///< of a measured scene: of the trial's instruments
+  int column = 0;               ///< of that instrument
+  int camera = -1;              ///< of a measured scene, looked through; -1: none
 };
 
 /// What is known of the run, for the line of time.
@@ -62,6 +66,8 @@ struct ViewState {
   SeenRun seen;
   MeasuredView measured;
   int hidden_plant = -1;         ///< of the snapshot, shown otherwise; -1: none
+  bool hides_plants = false;     ///< all of the snapshot are shown otherwise
+  std::vector<Pose> links;       ///< of the robot, in place of the snapshot's; empty: none
   int residual_plant = -1;       ///< of the snapshot, that `residual` is about
   std::vector<double> residual;  ///< m, one an element; NaN: not known
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pedicel/app/draw/drawing.h"
 #include "pedicel/app/session/session.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/plant/plant_edit.h"
@@ -181,14 +182,7 @@ void MeasuredMarks::add_markers(const MeasuredInstant& instant, const MeasuredVi
 }
 
 void MeasuredMarks::add_to(render::DrawList& list) const {
-  const auto append = [](auto& all, const auto& more) {
-    all.insert(all.end(), more.begin(), more.end());
-  };
-  append(list.tubes, list_.tubes);
-  append(list.capsules, list_.capsules);
-  append(list.spheres, list_.spheres);
-  append(list.lines, list_.lines);
-  append(list.meshes, list_.meshes);
+  add_at(list, list_, Pose{});
 }
 
 }  // namespace pedicel::app

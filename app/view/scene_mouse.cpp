@@ -92,7 +92,7 @@ void SceneMouse::move(Ui& ui, ViewCamera& camera, const SceneFrame& frame) {
   if (drag_ == Drag::pan) camera.pan(moved.x, moved.y, frame.height());
   if (drag_ == Drag::dolly) camera.dolly(-0.04 * moved.y, camera.target());
   if (drag_ == Drag::pull) move_pull(ui, frame);
-  if (drag_ == Drag::orbit || drag_ == Drag::pan || drag_ == Drag::dolly) ui.view.camera = -1;
+  if (drag_ == Drag::orbit || drag_ == Drag::pan || drag_ == Drag::dolly) ui.view.camera = ui.view.measured.camera = -1;
 }
 
 void SceneMouse::click(Ui& ui, ViewCamera& camera) {
@@ -123,7 +123,7 @@ void SceneMouse::update(Ui& ui, ViewCamera& camera, const SceneFrame& frame,
     // has begun on would move away from under the pointer: its second press is no double click.
     const bool left_is_ours = !tool_has_left || io.KeyAlt;
     if ((left_is_ours && ImGui::IsMouseDoubleClicked(0)) || ImGui::IsMouseDoubleClicked(1)) {
-      if (ui.hover) camera.look_at(ui.hover.place_W), ui.view.camera = -1;
+      if (ui.hover) camera.look_at(ui.hover.place_W), ui.view.camera = ui.view.measured.camera = -1;
     }
   }
   if (hovered && io.MouseWheel != 0.0f) {
@@ -135,7 +135,7 @@ void SceneMouse::update(Ui& ui, ViewCamera& camera, const SceneFrame& frame,
     const double far = camera.distance() / std::max(ray.direction.dot(forward), 0.2);
     const double reach = ui.hover ? ui.hover.distance : std::min(ui.hover.distance, far);
     camera.dolly(steps, reach > 0.0 ? Vec3(ray.origin + reach * ray.direction) : camera.target());
-    ui.view.camera = -1;
+    ui.view.camera = ui.view.measured.camera = -1;
   }
   if (drag_ == Drag::none) return;
   move(ui, camera, frame);

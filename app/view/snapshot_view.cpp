@@ -138,14 +138,15 @@ void SnapshotView::fill(render::DrawList& list, const Snapshot& snapshot, const 
     list.ground->height = ground->height;
   }
   for (int p = 0; p < static_cast<int>(plants_.size()); ++p) {
-    if (p == view.hidden_plant) continue;
+    if (view.hides_plants || p == view.hidden_plant) continue;
     const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(p)];
     std::vector<Colour> tints = colours(snapshot, p, view);
     highlight(tints, *plant.model, p, selection, hover);
     plants_[static_cast<std::size_t>(p)].drawing->add_to(list, plant.state, tints, view.leaves);
   }
-  for (std::size_t l = 0; l < shapes_.links().size() && l < snapshot.robot.links.size(); ++l)
-    add_at(list, shapes_.links()[l].list, snapshot.robot.links[l]);
+  const std::vector<Pose>& links = view.links.empty() ? snapshot.robot.links : view.links;
+  for (std::size_t l = 0; l < shapes_.links().size() && l < links.size(); ++l)
+    add_at(list, shapes_.links()[l].list, links[l]);
   if (view.ghost) add_ghost(list, snapshot, view);
   for (std::size_t b = 0; b < snapshot.bodies.size(); ++b)
     add_at(list, shapes_.bodies()[b].list, snapshot.bodies[b].pose);

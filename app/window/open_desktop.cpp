@@ -17,6 +17,7 @@
 #include "pedicel/app/session/session_recovery.h"
 #include "pedicel/app/window/desktop.h"
 #include "pedicel/app/window/film.h"
+#include "pedicel/app/window/measured_image.h"
 #include "pedicel/app/window/playback_window.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
@@ -85,10 +86,11 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   desktop.ui().preferences.seen_hint = !request.file.empty();
   desktop.ui().view.automatic_quality = false;
   desktop.ui().view.quality = CanvasQuality::best;
-  camera_index(*session.snapshot(), request.camera);  // there is such a one
+  const int measured = measured_camera(session, request.camera);
+  if (measured < 0) camera_index(*session.snapshot(), request.camera);  // there is such a one
   if (!request.script.empty())
     if (const int code = run_script(request.script, session, std::cout, std::cerr)) return code;
-  if (session.measured().data().experiment())
+  if (!session.measured().folder().empty())
     desktop.frame(), desktop.ui().view.measured.time = request.time;
   else if (request.time > 0.0)
     session.control().run_for(request.time);
@@ -96,7 +98,9 @@ int take_picture(Platform& platform, Session& session, const DesktopRequest& req
   // The first pictures lay the panels out and frame the scene; the camera may follow what moves.
   for (int i = 0; i < 5; ++i) {
     desktop.frame();
-    if (!request.camera.empty())
+    if (measured >= 0)
+      desktop.ui().view.measured.camera = measured;
+    else if (!request.camera.empty())
       desktop.scene().use_camera(camera_index(*session.snapshot(), request.camera));
   }
   desktop.frame();

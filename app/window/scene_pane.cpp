@@ -8,6 +8,7 @@
 #include "pedicel/app/session/live/organ_place.h"
 #include "pedicel/app/session/live/robot_goal.h"
 #include "pedicel/app/tools/draw_tool.h"
+#include "pedicel/app/window/measured_image.h"
 #include "pedicel/app/window/scene_labels.h"
 
 namespace pedicel::app {
@@ -47,6 +48,7 @@ void ScenePane::draw(const LayoutAreas& areas) {
     ui_.times.scene += 0.2 * (seconds_ - ui_.times.scene);
   }
   tool_handles_.draw(*ImGui::GetWindowDrawList(), ui_, frame_);
+  draw_measured_image(ui_, frame_);
   draw_scene_labels(ui_, frame_, *draw_tool_);
   ImGui::End();
 }
@@ -81,9 +83,11 @@ void ScenePane::settle_camera() {
   if (ui_.frame_box) {
     camera_.frame(*ui_.frame_box, frame_.size.x / frame_.size.y);
     ui_.frame_box.reset();
-    ui_.view.camera = -1;
+    ui_.view.camera = ui_.view.measured.camera = -1;
   }
   frame_.camera = camera_.camera();
+  if (const discrepancy::Camera* through = looked_through(ui_))
+    frame_.camera = camera_through(*through, frame_.size);
   ui_.view_eye = frame_.camera.eye, ui_.view_target = frame_.camera.target;
   ui_.view_fov = frame_.camera.field_of_view;
 }
@@ -94,8 +98,10 @@ void ScenePane::fill_list() {
   if (const auto ghost = robot_ghost(*ui_.snapshot))
     ui_.view.goal_hits = robot_contacts_.at_goal(*ui_.snapshot, ghost->links);
   measured_.update(ui_.view, ui_.session, *ui_.snapshot);
+  measured_scene_.update(ui_.view, ui_.session);
   view_.fill(list_, *ui_.snapshot, ui_.view, ui_.selection, ui_.hover);
   measured_.add_to(list_);
+  measured_scene_.add_to(list_);
   draw_tool_->add_to(list_, ui_, frame_);
 }
 
@@ -114,7 +120,7 @@ void ScenePane::show_picture(const LayoutAreas& areas) {
 
 std::optional<render::Image> ScenePane::picture(int width, int height) {
   if (!canvas_) return {};
-  return canvas_->still(list_, camera_.camera(), width, height);
+  return canvas_->still(list_, frame_.camera, width, height);
 }
 
 void ScenePane::use_camera(int index) {
@@ -126,6 +132,7 @@ void ScenePane::use_camera(int index) {
   const Vec3 middle = list_.bounds().isEmpty() ? Vec3(Vec3::Zero()) : Vec3(list_.bounds().center());
   camera_.set(camera_of(camera, place_of(*ui_.snapshot, camera.follow).value_or(middle)));
   ui_.view.camera = index;
+  ui_.view.measured.camera = -1;
 }
 
 void ScenePane::follow_camera() {

@@ -7,6 +7,7 @@
 #include "pedicel/app/session/live/robot_contacts.h"
 #include "pedicel/app/tools/tool_handles.h"
 #include "pedicel/app/view/measured_marks.h"
+#include "pedicel/app/view/measured_scene_marks.h"
 #include "pedicel/app/view/scene_canvas.h"
 #include "pedicel/app/view/scene_mouse.h"
 #include "pedicel/app/view/snapshot_view.h"
@@ -57,6 +58,7 @@ class ScenePane {
   std::unique_ptr<SceneCanvas> canvas_;
   SnapshotView view_;
   MeasuredMarks measured_;
+  MeasuredSceneMarks measured_scene_;
   RobotContacts robot_contacts_;
   render::DrawList list_;
   ViewCamera camera_;

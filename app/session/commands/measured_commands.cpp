@@ -31,6 +31,13 @@ void set_effects(Document& document, const Command& c) {
   document.edit_plant(c.word("plant")).effects = std::move(*effects);
 }
 
+void set_scene_effects(Document& document, const Command& c) {
+  Diagnostics diagnostics;
+  std::vector<io::YamlPiece> effects = parse_scene_effects(c.word("text"), diagnostics);
+  if (diagnostics.has_errors()) throw UsageError(sentences(diagnostics.all()));
+  document.edit_scene().effects = std::move(effects);
+}
+
 Result open_measured(Session& session, const Command& c) {
   return session.measured().open(c.word("folder"));
 }
@@ -41,7 +48,7 @@ Result cancel_reading(Session& session, const Command&) {
 }
 
 Result close_measured(Session& session, const Command&) {
-  session.measured().data().close();
+  session.measured().close();
   return {};
 }
 
@@ -51,7 +58,7 @@ Result begin_diagnosis(Session& session, const Command& c) {
 }
 
 Result cancel_diagnosis(Session& session, const Command&) {
-  session.measured().data().cancel_diagnosis();
+  session.measured().cancel_diagnosis();
   return {};
 }
 
@@ -74,6 +81,26 @@ std::string effects_text(const std::vector<plant::Effect>& effects) {
   for (const plant::Effect& effect : effects)
     text += (text.size() > 1 ? ", " : "") + plant::effect_text(effect);
   return text + "]";
+}
+
+std::string scene_effects_text(const std::vector<io::YamlPiece>& pieces,
+                               const std::vector<plant::Effect>& more) {
+  std::string text = "[";
+  const auto add = [&](const std::string& one) { text += (text.size() > 1 ? ", " : "") + one; };
+  for (const io::YamlPiece& piece : pieces) add(io::piece_text(piece));
+  for (const plant::Effect& effect : more) add(plant::effect_text(effect));
+  return text + "]";
+}
+
+std::vector<io::YamlPiece> parse_scene_effects(const std::string& text, Diagnostics& diagnostics) {
+  std::vector<io::YamlPiece> pieces;
+  try {
+    const io::YamlNode all = io::parse_yaml(text, "effects", diagnostics);
+    for (const io::YamlNode& node : all.list("effects")) pieces.push_back(io::piece_of(node));
+  } catch (const InvalidFile& fault) {
+    diagnostics.add(fault);
+  }
+  return pieces;
 }
 
 std::optional<std::vector<plant::Effect>> parse_effects(const std::string& text,
@@ -99,10 +126,17 @@ std::vector<CommandDescription> measured_commands() {
          "as in a plant file: [{name: base_compliance, stiffness: 0.8}]"}},
        "Gives a plant these model extensions in place of the ones it has.",
        set_effects},
+      {"set scene effects",
+       Scope::document,
+       {{"text", Kind::text, true,
+         "as in a scene file: [{name: contact_friction, coefficient: 0.3}]"}},
+       "Gives the scene these effects of contact, arm, sensors and plants in place of its own.",
+       set_scene_effects},
       {"open experiment",
        s,
        {{"folder", Kind::text, true, "path of the experiment"}},
-       "Opens measured data and simulates them with the nominal plant.",
+       "Opens data measured at a plant or with a robot in a scene, and simulates them as the files "
+       "say.",
        open_measured},
       {"cancel reading", s, {}, "Drops the experiment that is being read.", cancel_reading},
       {"close experiment", s, {}, "Leaves the measured data.", close_measured},
@@ -116,12 +150,13 @@ std::vector<CommandDescription> measured_commands() {
       {"accept diagnosis",
        s,
        {},
-       "Gives the plant the effects that the diagnosis found; undo takes them away.",
+       "Gives the plant or the scene the effects that the diagnosis found; undo takes them away.",
        accept_diagnosis},
       {"write report",
        s,
        {{"folder", Kind::text, true, "path"}},
-       "Writes the diagnosis as report.html, verdict.json and extended.plant.yaml.",
+       "Writes the diagnosis as report.html, verdict.json and extended.plant.yaml or "
+       "extended.scene.yaml.",
        write_diagnosis},
   };
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pedicel/io/yaml_piece.h"
 #include "pedicel/plant/plant_file.h"
 
 namespace pedicel::app {
@@ -15,5 +16,10 @@ bool is_experiment(const std::filesystem::path& path);
 std::string effects_text(const std::vector<plant::Effect>& effects);
 std::optional<std::vector<plant::Effect>> parse_effects(const std::string& text,
                                                         Diagnostics& diagnostics);
+
+/// The same of a scene's effects, as `set scene effects` takes them: what its file says, and more.
+std::string scene_effects_text(const std::vector<io::YamlPiece>& pieces,
+                               const std::vector<plant::Effect>& more = {});
+std::vector<io::YamlPiece> parse_scene_effects(const std::string& text, Diagnostics& diagnostics);
 
 }  // namespace pedicel::app

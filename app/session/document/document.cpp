@@ -156,15 +156,21 @@ Document empty_document() {
   return document;
 }
 
+Document document_of(world::Scene scene, Diagnostics& diagnostics) {
+  Document document;
+  document.scene = std::make_shared<const world::Scene>(std::move(scene));
+  if (document.scene->robot) document.waypoints = document.scene->robot->recorded;
+  read_plants(document, diagnostics);
+  return document;
+}
+
 Document open_document(const std::filesystem::path& path, double unit, Diagnostics* remarks) {
   Diagnostics diagnostics;
   Document document = empty_document();
   if (is_scene(path)) {
     auto scene = world::read_scene(path, diagnostics);
     if (!scene) throw InvalidFile(diagnostics);
-    document.scene = std::make_shared<const world::Scene>(std::move(*scene));
-    if (document.scene->robot) document.waypoints = document.scene->robot->recorded;
-    read_plants(document, diagnostics);
+    document = document_of(std::move(*scene), diagnostics);
   } else if (auto file = read_plant(path, diagnostics, unit)) {
     DocumentPlant one;
     one.entry.name = file->name;

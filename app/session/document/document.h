@@ -61,6 +61,8 @@ void stand_on_ground(Document& document);
 
 /// An empty document: ground, gravity, nothing on it.
 Document empty_document();
+/// A scene that was read, with the files of its plants; it has no path. Faults go to `diagnostics`.
+Document document_of(world::Scene scene, Diagnostics& diagnostics);
 /// Reads a scene (*.scene.yaml), a plant file, a skeleton table (*.csv) or an MTG (*.mtg) with
 /// everything that it names. `unit` (m) is that of the lengths in a lone table or MTG; 0: as the
 /// file says. Throws InvalidFile with every fault found; warnings and heights go to `remarks`.

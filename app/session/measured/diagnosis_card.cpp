@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "pedicel/discrepancy/report/report_words.h"
+#include "pedicel/discrepancy/report/scene_report.h"
+#include "pedicel/discrepancy/test/symptom_parts.h"
 #include "pedicel/effects/registry/effect_definition.h"
 
 namespace pedicel::app {
@@ -54,22 +56,52 @@ std::vector<DiagnosisCard::CompetingModel> competing_models_of(
   return models;
 }
 
-}  // namespace
+std::vector<DiagnosisCard::CompetingModel> competing_models_of(
+    const discrepancy::SceneDiagnosis& diagnosis) {
+  std::vector<DiagnosisCard::CompetingModel> models;
+  const auto& candidates = diagnosis.findings.candidates;
+  // The first is the one that is told.
+  for (std::size_t i = 1; i < candidates.size() && models.size() < most_competing; ++i)
+    models.push_back({discrepancy::joined_names(candidates[i].names),
+                      discrepancy::short_number(candidates[i].excess) +
+                          " noise units are left with it, " +
+                          discrepancy::short_number(candidates.front().excess) + " with the best",
+                      candidates[i].cost - candidates.front().cost});
+  return models;
+}
 
-DiagnosisCard card_of(const discrepancy::Diagnosis& diagnosis) {
-  const discrepancy::Verdict& verdict = diagnosis.verdict;
+/// What both kinds of diagnosis say alike.
+DiagnosisCard card_of(const discrepancy::Verdict& verdict) {
   DiagnosisCard card;
   card.good = verdict.outcome == Outcome::adequate || verdict.outcome == Outcome::named;
   card.outcome = to_string(verdict.outcome);
   card.headline = headline(verdict);
-  card.certainty = discrepancy::certainty_text(diagnosis);
-  card.next = next_step(verdict);
   if (verdict.outcome == Outcome::bad_data || verdict.outcome == Outcome::numerical) return card;
   card.remainder = discrepancy::remainder_text(verdict);
   for (const auto& cause : verdict.causes) card.causes.push_back(cause_of(cause));
+  std::tie(card.detectable_limits, card.unseen) = discrepancy::detectable_limit_texts(verdict);
+  return card;
+}
+
+}  // namespace
+
+DiagnosisCard card_of(const discrepancy::Diagnosis& diagnosis) {
+  const discrepancy::Verdict& verdict = diagnosis.verdict;
+  DiagnosisCard card = card_of(verdict);
+  card.certainty = discrepancy::certainty_text(diagnosis);
+  card.next = next_step(verdict);
+  if (verdict.outcome == Outcome::bad_data || verdict.outcome == Outcome::numerical) return card;
   card.gain = discrepancy::gain_text(diagnosis);
   card.competing_models = competing_models_of(diagnosis);
-  std::tie(card.detectable_limits, card.unseen) = discrepancy::detectable_limit_texts(verdict);
+  return card;
+}
+
+DiagnosisCard card_of(const discrepancy::SceneDiagnosis& diagnosis) {
+  DiagnosisCard card = card_of(diagnosis.verdict);
+  card.certainty = discrepancy::scene_certainty_text(diagnosis);
+  card.gain = discrepancy::scene_gain_text(diagnosis);
+  card.competing_models = competing_models_of(diagnosis);
+  card.next = discrepancy::scene_next_text(diagnosis.verdict);
   return card;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
 
 namespace pedicel::app {
 
@@ -31,5 +32,7 @@ struct DiagnosisCard {
 };
 
 DiagnosisCard card_of(const discrepancy::Diagnosis& diagnosis);
+/// The same of a measured scene; models that lost have no nats of their own there.
+DiagnosisCard card_of(const discrepancy::SceneDiagnosis& diagnosis);
 
 }  // namespace pedicel::app

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -8,7 +10,6 @@
 #include <vector>
 
 #include "pedicel/app/session/measured/background_job.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
 
 namespace pedicel::app {
 
@@ -21,31 +22,49 @@ struct DiagnosisProgress {
   std::vector<std::string> found;  ///< each finding so far, a sentence
 };
 
+/// Where a diagnosis writes how far it is, and others read it. Calls from any thread.
+class ProgressBoard {
+ public:
+  void tell(const std::string& doing, double share);
+  void note(const std::string& sentence);
+  DiagnosisProgress read() const;
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  mutable std::mutex mutex_;
+  DiagnosisProgress progress_;  // under the mutex
+};
+
+/// `threads`, or for 0 all cores but one, which the picture keeps.
+int threads_for_diagnosis(int threads);
+
 /// A diagnosis on a thread of its own.
+template <class Found>
 class DiagnosisJob {
  public:
-  /// `threads` of its own work on it.
-  DiagnosisJob(std::shared_ptr<const discrepancy::Experiment> experiment, int threads,
-               std::uint64_t seed);
+  /// Returns soon, with nothing, once the flag is set. What it throws becomes fault().
+  using Work =
+      std::function<std::optional<Found>(ProgressBoard& board, const std::atomic<bool>& stop)>;
 
-  DiagnosisProgress progress() const;
+  explicit DiagnosisJob(Work work)
+      : job_([this, work = std::move(work)](const std::atomic<bool>& stop) {
+          if (auto found = work(board_, stop))
+            result_ = std::make_shared<const Found>(std::move(*found));
+        }) {}
+
+  DiagnosisProgress progress() const { return board_.read(); }
   /// Asks it to stop; it ends within some simulated trials.
   void cancel() { job_.stop(); }
   bool is_cancelled() const { return job_.was_stopped(); }
   bool has_ended() const { return job_.has_ended(); }
   const std::string& fault() const { return job_.fault(); }
-  /// What it found out; null where it was cancelled or failed, and before it has ended.
-  std::shared_ptr<const discrepancy::Diagnosis> result() const;
+  /// What it found out, once it has ended; null where it was cancelled or failed.
+  std::shared_ptr<const Found> result() const { return has_ended() ? result_ : nullptr; }
 
  private:
-  void work(const discrepancy::Experiment& experiment, int threads, std::uint64_t seed,
-            const std::atomic<bool>& stop);
-
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  mutable std::mutex mutex_;
-  DiagnosisProgress progress_;                            // under the mutex
-  std::shared_ptr<const discrepancy::Diagnosis> result_;  // under the mutex
-  BackgroundJob job_;                                     // last: ends before what it writes to
+  ProgressBoard board_;
+  std::shared_ptr<const Found> result_;  // its thread's, until that has ended
+  BackgroundJob job_;                    // last: ends before what it writes to
 };
 
 }  // namespace pedicel::app

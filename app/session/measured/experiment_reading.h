@@ -6,10 +6,11 @@
 
 #include "pedicel/app/session/measured/background_job.h"
 #include "pedicel/discrepancy/data/experiment.h"
+#include "pedicel/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::app {
 
-/// An experiment folder that is read on a thread of its own.
+/// An experiment folder, of a plant or of a robot at plants, that is read on a thread of its own.
 class ExperimentReading {
  public:
   explicit ExperimentReading(std::filesystem::path path);
@@ -23,8 +24,9 @@ class ExperimentReading {
   bool has_ended() const { return job_.has_ended(); }
 
   // Once it has ended.
-  /// Nothing where there were faults, or it was cancelled.
+  /// Both are nothing where there were faults, or it was cancelled; else one of them is there.
   std::optional<discrepancy::Experiment>& experiment() { return experiment_; }
+  std::optional<discrepancy::SceneExperiment>& scene_experiment() { return scene_experiment_; }
   const Diagnostics& diagnostics() const { return diagnostics_; }
   const std::string& fault() const { return job_.fault(); }
 
@@ -32,6 +34,7 @@ class ExperimentReading {
   std::filesystem::path path_;
   std::atomic<int> done_{0}, all_{0};
   std::optional<discrepancy::Experiment> experiment_;
+  std::optional<discrepancy::SceneExperiment> scene_experiment_;
   Diagnostics diagnostics_;
   BackgroundJob job_;  // last: ends before what it writes to
 };

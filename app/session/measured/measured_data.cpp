@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -24,39 +23,6 @@ const char* model_name(Model model) {
                                                                        "extended"};
   return names[static_cast<std::size_t>(model)];
 }
-
-struct MeasuredData::Paths {
-  struct Made {
-    Model model;
-    int trial;
-    TrialPath path;
-  };
-
-  Paths(std::shared_ptr<const discrepancy::Experiment> experiment, std::vector<Model> models,
-        std::vector<discrepancy::Variant> variants, const discrepancy::Numerics& numerics,
-        int of_number)
-      : number(of_number),
-        awaited(static_cast<int>(models.size() * experiment->trials.size())),
-        job([this, experiment = std::move(experiment), models = std::move(models),
-             variants = std::move(variants), numerics](const std::atomic<bool>& stop) {
-          simulate_paths(
-              *experiment, variants, numerics, stop, [&](int trial, int variant, TrialPath path) {
-                const std::lock_guard lock(mutex);
-                made.push_back({models[static_cast<std::size_t>(variant)], trial, std::move(path)});
-              });
-        }) {}
-
-  std::vector<Made> take() {
-    const std::lock_guard lock(mutex);
-    return std::exchange(made, {});
-  }
-
-  int number;   // of the experiment it is for
-  int awaited;  // paths that have not been taken
-  std::mutex mutex;
-  std::vector<Made> made;
-  BackgroundJob job;  // last: ends before what it writes to
-};
 
 MeasuredData::MeasuredData() = default;
 MeasuredData::~MeasuredData() = default;
@@ -80,7 +46,7 @@ void MeasuredData::close() {
 
 /// What runs for another experiment is asked to stop, and waited for by nobody.
 void MeasuredData::retire() {
-  for (const auto& simulation : simulations_) simulation->job.stop();
+  runs_.stop();
   if (!diagnosing_) return;
   diagnosing_->cancel();
   retired_.push_back(std::move(diagnosing_));
@@ -89,7 +55,15 @@ void MeasuredData::retire() {
 void MeasuredData::simulate(const std::vector<Model>& models,
                             const std::vector<discrepancy::Variant>& variants,
                             const discrepancy::Numerics& numerics) {
-  simulations_.push_back(std::make_unique<Paths>(experiment_, models, variants, numerics, number_));
+  runs_.start(number_, static_cast<int>(models.size() * experiment_->trials.size()),
+              [experiment = experiment_, models, variants, numerics](
+                  const std::atomic<bool>& stop, const PathRuns<TrialPath>::Done& done) {
+                simulate_paths(*experiment, variants, numerics, stop,
+                               [&](int trial, int variant, TrialPath path) {
+                                 done({models[static_cast<std::size_t>(variant)], trial,
+                                       std::move(path)});
+                               });
+              });
 }
 
 const TrialPath* MeasuredData::path(Model model, int trial) const {
@@ -105,18 +79,24 @@ bool MeasuredData::has(Model model) const {
 }
 
 int MeasuredData::still_simulated() const {
-  int count = 0;
-  for (const auto& simulation : simulations_)
-    if (simulation->number == number_) count += simulation->awaited;
-  return count;
+  return runs_.awaited(number_);
 }
 
 void MeasuredData::start_diagnosis(int threads, std::uint64_t seed) {
   if (!experiment_) throw UsageError("no experiment is open, expected one (open experiment PATH)");
   if (diagnosing_) throw UsageError("a diagnosis runs already, expected it to end or be cancelled");
-  const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  diagnosing_ = std::make_unique<DiagnosisJob>(
-      experiment_, threads > 0 ? threads : std::max(1, cores - 1), seed);
+  diagnosing_ = std::make_unique<Job>(
+      [experiment = experiment_, threads = threads_for_diagnosis(threads), seed](
+          ProgressBoard& board, const std::atomic<bool>& stop) {
+        discrepancy::DiagnosisOptions options;
+        options.threads = threads;
+        options.seed = seed;
+        options.stop = &stop;
+        options.progress = [&](const std::string& doing, double share) { board.tell(doing, share); };
+        options.note = [&](const std::string& sentence) { board.note(sentence); };
+        discrepancy::Diagnosis found = discrepancy::diagnose(*experiment, options);
+        return found.stopped ? std::nullopt : std::optional(std::move(found));
+      });
 }
 
 void MeasuredData::cancel_diagnosis() {
@@ -146,23 +126,15 @@ std::vector<std::string> MeasuredData::update() {
 }
 
 void MeasuredData::take_paths(std::vector<std::string>& faults) {
-  for (const auto& simulation : simulations_) {
-    const bool ended = simulation->job.has_ended();  // before take(): what it made last is there
-    if (simulation->number == number_) {
-      for (Paths::Made& made : simulation->take()) {
-        --simulation->awaited;
-        auto& place =
-            paths_[static_cast<std::size_t>(made.model)][static_cast<std::size_t>(made.trial)];
-        // What a diagnosis predicts is corrected for the mesh and the step: only the shape is new.
-        if (place && diagnosis_)
-          place->shape = std::move(made.path.shape);
-        else
-          place = std::move(made.path);
-      }
-      if (ended && !simulation->job.fault().empty()) faults.push_back(simulation->job.fault());
-    }
+  for (PathRuns<TrialPath>::Made& made : runs_.take(number_, faults)) {
+    auto& place =
+        paths_[static_cast<std::size_t>(made.model)][static_cast<std::size_t>(made.trial)];
+    // What a diagnosis predicts is corrected for the mesh and the step: only the shape is new.
+    if (place && diagnosis_)
+      place->shape = std::move(made.path.shape);
+    else
+      place = std::move(made.path);
   }
-  std::erase_if(simulations_, [](const auto& one) { return one->job.has_ended(); });
 }
 
 void MeasuredData::take_diagnosis(std::vector<std::string>& faults) {
@@ -198,7 +170,7 @@ std::vector<std::string> MeasuredData::wait() {
   do {
     for (std::string& fault : update()) faults.push_back(std::move(fault));
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  } while (diagnosing_ || !simulations_.empty() || !retired_.empty());
+  } while (diagnosing_ || !runs_.none() || !retired_.empty());
   return faults;
 }
 

@@ -8,6 +8,7 @@
 
 #include "pedicel/app/session/measured/diagnosis_job.h"
 #include "pedicel/app/session/measured/model_paths.h"
+#include "pedicel/app/session/measured/path_runs.h"
 #include "pedicel/discrepancy/procedure/diagnosis.h"
 
 namespace pedicel::app {
@@ -61,7 +62,7 @@ class MeasuredData {
   std::vector<std::string> wait();
 
  private:
-  struct Paths;  // a simulation that runs, and what it has made
+  using Job = DiagnosisJob<discrepancy::Diagnosis>;
   void simulate(const std::vector<discrepancy::Model>& models,
                 const std::vector<discrepancy::Variant>& variants,
                 const discrepancy::Numerics& numerics);
@@ -75,9 +76,9 @@ class MeasuredData {
   std::vector<ShapeCurve> shape_;
   std::array<std::vector<std::optional<TrialPath>>, discrepancy::model_count> paths_;
   std::shared_ptr<const discrepancy::Diagnosis> diagnosis_;
-  std::vector<std::unique_ptr<Paths>> simulations_;
-  std::unique_ptr<DiagnosisJob> diagnosing_;
-  std::vector<std::unique_ptr<DiagnosisJob>> retired_;  // asked to stop, not yet ended
+  PathRuns<TrialPath> runs_;
+  std::unique_ptr<Job> diagnosing_;
+  std::vector<std::unique_ptr<Job>> retired_;  // asked to stop, not yet ended
 };
 
 }  // namespace pedicel::app

@@ -4,26 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "pedicel/app/session/measured/between_samples.h"
+
 namespace pedicel::app {
 
 namespace {
 
-/// Two neighbouring samples and how far between them.
-struct Between {
-  Eigen::Index low = 0, high = 0;
-  double share = 0.0;
-};
-
-Between find(const std::vector<double>& time, double t) {
-  const auto above = std::upper_bound(time.begin(), time.end(), t);
-  if (above == time.begin()) return {};
-  const auto high = static_cast<Eigen::Index>(above - time.begin());
-  if (above == time.end()) return {high - 1, high - 1, 0.0};
-  const double before = *(above - 1);
-  return {high - 1, high, (t - before) / (*above - before)};
-}
-
-Vec3 point(const Eigen::MatrixXd& table, const Between& at, Eigen::Index column) {
+Vec3 point(const Eigen::MatrixXd& table, const BetweenSamples& at, Eigen::Index column) {
   const Vec3 low = table.block<1, 3>(at.low, column).transpose();
   if (at.share == 0.0) return low;
   const Vec3 high = table.block<1, 3>(at.high, column).transpose();
@@ -41,7 +28,7 @@ std::optional<MeasuredInstant> instant_of(const MeasuredData& data, int trial,
   if (seen.time.empty()) return std::nullopt;
   MeasuredInstant instant;
   instant.time = std::clamp(time, seen.time.front(), seen.time.back());
-  const Between at = find(seen.time, instant.time);
+  const BetweenSamples at = between_samples(seen.time, instant.time);
   const TrialPath* path = data.path(model, trial);
   double sum = 0.0;
   int count = 0;

@@ -114,7 +114,19 @@ std::string trial_names(const SceneExperiment& experiment, const std::vector<int
   return text;
 }
 
-std::string certainty(const SceneDiagnosis& d) {
+void add_competing(io::HtmlReport& page, const SceneDiagnosis& d) {
+  if (d.findings.candidates.size() < 2) return;
+  page.subheading("What else it could have been");
+  std::vector<std::vector<std::string>> rows;
+  for (const SceneCandidate& one : d.findings.candidates)
+    rows.push_back({joined_names(one.names), short_number(one.excess),
+                    one.check_excess ? short_number(*one.check_excess) : "\u2013"});
+  page.table({"model", "left beyond the noise (noise units)", "held out"}, rows);
+}
+
+}  // namespace
+
+std::string scene_certainty_text(const SceneDiagnosis& d) {
   const Verdict& v = d.verdict;
   std::string text = "Fitted were " + std::to_string(d.fit_trials.size()) + " trials, held out " +
                      std::to_string(d.check_trials.size()) + ".";
@@ -125,7 +137,7 @@ std::string certainty(const SceneDiagnosis& d) {
   return text;
 }
 
-std::string gain_of(const SceneDiagnosis& d) {
+std::string scene_gain_text(const SceneDiagnosis& d) {
   const Verdict& v = d.verdict;
   const bool held = v.check.refitted.has_value();
   const Errors& e = held ? v.check : v.fit;
@@ -141,7 +153,7 @@ std::string gain_of(const SceneDiagnosis& d) {
   return text;
 }
 
-std::string next_of(const Verdict& v) {
+std::string scene_next_text(const Verdict& v) {
   if (!v.next_experiment.empty()) return v.next_experiment + ".";
   if (v.outcome == Outcome::adequate)
     return "Nothing is missing at this noise. Use the refitted parameters below.";
@@ -152,18 +164,6 @@ std::string next_of(const Verdict& v) {
   return "Repeat the trial with the largest residual, with one more marker where it is largest.";
 }
 
-void add_competing(io::HtmlReport& page, const SceneDiagnosis& d) {
-  if (d.findings.candidates.size() < 2) return;
-  page.subheading("What else it could have been");
-  std::vector<std::vector<std::string>> rows;
-  for (const SceneCandidate& one : d.findings.candidates)
-    rows.push_back({joined_names(one.names), short_number(one.excess),
-                    one.check_excess ? short_number(*one.check_excess) : "\u2013"});
-  page.table({"model", "left beyond the noise (noise units)", "held out"}, rows);
-}
-
-}  // namespace
-
 std::string scene_report_text(const SceneExperiment& experiment, const SceneDiagnosis& d) {
   const Verdict& v = d.verdict;
   io::HtmlReport page(
@@ -173,12 +173,12 @@ std::string scene_report_text(const SceneExperiment& experiment, const SceneDiag
           " s");
   page.begin_card();
   page.note(headline(v), v.outcome == Outcome::adequate || v.outcome == Outcome::named);
-  page.paragraph(certainty(d));
+  page.paragraph(scene_certainty_text(d));
   const std::string remainder = remainder_text(v);
   if (!remainder.empty()) page.paragraph(remainder);
   add_symptom_numbers(page, v);
   add_causes(page, v);
-  const std::string gain = gain_of(d);
+  const std::string gain = scene_gain_text(d);
   if (!gain.empty()) {
     page.subheading("What it gains");
     page.paragraph(gain);
@@ -186,7 +186,7 @@ std::string scene_report_text(const SceneExperiment& experiment, const SceneDiag
   add_competing(page, d);
   add_hiding(page, v);
   page.subheading("What to do next");
-  page.paragraph(next_of(v));
+  page.paragraph(scene_next_text(v));
   page.end_card();
   page.heading("Measured against simulated");
   page.paragraph("Fitted: " + trial_names(experiment, d.fit_trials) + ". Held out: " +
@@ -220,12 +220,12 @@ std::string scene_card_text(const SceneDiagnosis& d) {
   for (const NamedCause& cause : v.causes)
     for (const auto& [name, estimates] : cause.parameters)
       text += "  " + cause.name + ", " + name + ": " + estimate_text(estimates) + "\n";
-  const std::string gain = gain_of(d);
+  const std::string gain = scene_gain_text(d);
   if (!gain.empty()) text += "  " + gain + "\n";
   std::size_t told = 0;
   for (const SymptomNumber& one : v.symptoms)
     if (one.shows && told++ < most_told) text += "  " + one.sentence + "\n";
-  if (v.outcome != Outcome::adequate) text += "  Next: " + next_of(v) + "\n";
+  if (v.outcome != Outcome::adequate) text += "  Next: " + scene_next_text(v) + "\n";
   return text;
 }
 

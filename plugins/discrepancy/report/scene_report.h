@@ -14,6 +14,11 @@ std::string scene_report_text(const SceneExperiment& experiment, const SceneDiag
 /// The card for a terminal: what is wrong, how large, what it gains, what to do next.
 std::string scene_card_text(const SceneDiagnosis& diagnosis);
 
+/// Sentences of the card: on what it was decided, what is gained, and what to do next.
+std::string scene_certainty_text(const SceneDiagnosis& diagnosis);
+std::string scene_gain_text(const SceneDiagnosis& diagnosis);
+std::string scene_next_text(const Verdict& verdict);
+
 /// Writes it as report.html into the folder. Throws io::WriteError.
 void write_scene_report(const std::filesystem::path& folder, const SceneExperiment& experiment,
                         const SceneDiagnosis& diagnosis);

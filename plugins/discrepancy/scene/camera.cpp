@@ -6,21 +6,42 @@
 namespace pedicel::discrepancy {
 
 namespace {
+
 constexpr double nearest = 1.0e-6;  // m in front of the pinhole
+constexpr double undone = 1.0e-9;   // 1, far below a pixel
+constexpr int undoing = 100;
+
+// Brown's model, as OpenCV writes it: of a place on the plane at z = 1.
+Eigen::Vector2d distorted(const Camera& camera, const Eigen::Vector2d& place) {
+  const double x = place.x(), y = place.y();
+  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
+  const double r2 = x * x + y * y;
+  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  return {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
+          y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
 }
+
+}  // namespace
 
 Eigen::Vector2d image_of(const Camera& camera, const Vec3& point_W) {
   const Vec3 p = camera.X_WC.rotation.conjugate() * (point_W - camera.X_WC.position);
   if (!(p.z() > nearest))
     return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  const double x = p.x() / p.z(), y = p.y() / p.z();
-  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
-  // Brown's model, as OpenCV writes it.
-  const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double xd = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x);
-  const double yd = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y;
-  return camera.focal.cwiseProduct(Eigen::Vector2d(xd, yd)) + camera.centre;
+  return camera.focal.cwiseProduct(distorted(camera, {p.x() / p.z(), p.y() / p.z()})) +
+         camera.centre;
+}
+
+Eigen::Vector2d direction_of(const Camera& camera, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d wanted = (pixel - camera.centre).cwiseQuotient(camera.focal);
+  // Lenses distort little, so the place itself is near. Each turn leaves the error that the
+  // distortion's slope makes of the last one.
+  Eigen::Vector2d place = wanted;
+  for (int i = 0; i < undoing; ++i) {
+    const Eigen::Vector2d off = wanted - distorted(camera, place);
+    if (!(off.norm() > undone)) return place;
+    place += off;
+  }
+  return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 Quat looking_at(const Vec3& eye, const Vec3& target) {
