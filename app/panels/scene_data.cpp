@@ -69,15 +69,12 @@ void SceneData::instruments(Ui& ui, const std::vector<SceneInstrument>& list) {
   const MeasuredScene& scene = ui.session.measured().scene();
   const std::vector<int> columns = known_models(scene, view.trial);
   heading(ui, "Error of the instruments, RMS");
-  if (!ImGui::BeginTable("instruments", 2 + static_cast<int>(columns.size()),
+  if (!ImGui::BeginTable("instruments", 1 + static_cast<int>(columns.size()),
                          ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchSame))
     return;
-  const float em = ImGui::GetFontSize();
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.6f);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.0f);
   for (std::size_t m = 0; m < columns.size(); ++m) ImGui::TableSetupColumn("");
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-  ImGui::TableNextColumn();
   ImGui::TableNextColumn();
   for (const int m : columns) {
     ImGui::TableNextColumn();
@@ -90,14 +87,13 @@ void SceneData::instruments(Ui& ui, const std::vector<SceneInstrument>& list) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushID(i);
-    if (ImGui::Selectable(elide(one.name, rest_width()).c_str(), view.instrument == i,
+    if (ImGui::Selectable(elide(one.name + ", " + one.unit, rest_width()).c_str(),
+                          view.instrument == i,
                           ImGuiSelectableFlags_SpanAllColumns)) {
       view.instrument = i, view.column = 0;
       plot_.follows = true;
     }
     ImGui::PopID();
-    ImGui::TableNextColumn();
-    elided(one.unit, rest_width());
     for (const int m : columns) {
       ImGui::TableNextColumn();
       const std::vector<double>& rms = scene.path(static_cast<Model>(m), view.trial)->rms;

@@ -27,34 +27,15 @@ double enlargement(const discrepancy::Camera& camera, const ImVec2& size) {
                   size.y * camera.focal.y() / camera.size[1]);
 }
 
-/// From places of the measured picture to places of the window.
-class ImagePlace {
- public:
-  ImagePlace(const discrepancy::Camera& camera, const SceneFrame& frame)
-      : camera_(camera),
-        middle_(frame.low.x + 0.5f * frame.size.x, frame.low.y + 0.5f * frame.size.y),
-        scale_(enlargement(camera, frame.size)) {}
-
-  /// NaN for NaN.
-  ImVec2 operator()(const Eigen::Vector2d& pixel) const {
-    const Eigen::Vector2d at = scale_ * discrepancy::direction_of(camera_, pixel);
-    return {middle_.x + static_cast<float>(at.x()), middle_.y + static_cast<float>(at.y())};
-  }
-
- private:
-  const discrepancy::Camera& camera_;
-  ImVec2 middle_;
-  double scale_;
-};
-
-void draw_edges(const discrepancy::Camera& camera, const ImagePlace& place) {
+void draw_edges(const discrepancy::Camera& camera, const SceneFrame& frame) {
   const double w = camera.size[0], h = camera.size[1];
   const Eigen::Vector2d corners[] = {{0, 0}, {w, 0}, {w, h}, {0, h}};
   std::vector<ImVec2> line;
   for (int side = 0; side < 4; ++side)
     for (int i = 0; i < edge_points; ++i) {
       const double share = static_cast<double>(i) / edge_points;
-      line.push_back(place(corners[side] + share * (corners[(side + 1) % 4] - corners[side])));
+      const Eigen::Vector2d way = corners[(side + 1) % 4] - corners[side];
+      line.push_back(image_place(camera, frame, corners[side] + share * way));
     }
   ImGui::GetWindowDrawList()->AddPolyline(line.data(), static_cast<int>(line.size()),
                                           IM_COL32(40, 46, 52, 200), ImDrawFlags_Closed, 1.5f);
@@ -88,15 +69,25 @@ render::Camera camera_through(const discrepancy::Camera& camera, const ImVec2& s
   return seen;
 }
 
+ImVec2 image_place(const discrepancy::Camera& camera, const SceneFrame& frame,
+                   const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d at =
+      enlargement(camera, frame.size) * discrepancy::direction_of(camera, pixel);
+  return {frame.low.x + 0.5f * frame.size.x + static_cast<float>(at.x()),
+          frame.low.y + 0.5f * frame.size.y + static_cast<float>(at.y())};
+}
+
 void draw_measured_image(const Ui& ui, const SceneFrame& frame) {
   const discrepancy::Camera* camera = looked_through(ui);
   if (!camera) return;
   const MeasuredView& view = ui.view.measured;
-  const ImagePlace place(*camera, frame);
+  const auto place = [&](const Eigen::Vector2d& pixel) {
+    return image_place(*camera, frame, pixel);
+  };
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(frame.low, ImVec2(frame.low.x + frame.size.x, frame.low.y + frame.size.y),
                     true);
-  draw_edges(*camera, place);
+  draw_edges(*camera, frame);
   const ImU32 seen = ink(measured_colour), said = ink(model_colour(view.model));
   const float ring = 6.0f * ui.scale, cross = 5.0f * ui.scale, width = 2.0f * ui.scale;
   for (const ImageInstant& one :

@@ -15,6 +15,10 @@ const discrepancy::Camera* looked_through(const Ui& ui);
 /// Shows a measured camera's whole picture in a place of that size (px), without its distortion.
 render::Camera camera_through(const discrepancy::Camera& camera, const ImVec2& size);
 
+/// Where a place of the measured picture (px) lies in a window that shows it by camera_through().
+ImVec2 image_place(const discrepancy::Camera& camera, const SceneFrame& frame,
+                   const Eigen::Vector2d& pixel);
+
 /// Over the scene as the measured camera sees it: where it saw the markers, where the model says
 /// that it would have, and the edges of its picture. Nothing where no camera is looked through.
 void draw_measured_image(const Ui& ui, const SceneFrame& frame);

@@ -2,8 +2,12 @@
 #include "cut_text.h"
 #include "desk.h"
 #include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/measured/scene_instant.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/view/measured_marks.h"
+#include "pedicel/app/window/measured_image.h"
+#include "pedicel/discrepancy/scene/camera.h"
+#include "support/measured_push.h"
 #include "support/measured_stem.h"
 #include "support/slow_file.h"
 #include "support/temporary_folder.h"
@@ -202,6 +206,78 @@ TEST_F(DataPanelTest, DiagnosisIsStartedCancelledShownAndAccepted) {
   desk_.settle();
   scroll_down();
   check("accepted");
+}
+
+/// A robot at a plant in place of a plant alone.
+class SceneDataPanelTest : public DataPanelTest {
+ protected:
+  void open_push(double k1 = 0.0) {
+    pedicel::testing::MeasuredPush push;
+    discrepancy::SceneExperiment e = push.experiment();
+    e.cameras.at(0).distortion[0] = k1;
+    discrepancy::write_scene_experiment(folder_ / "push", e);
+    desk_.open(folder_ / "push");
+    if (desk_.session().measured().reading()) desk_.session().measured().finish_reading();
+    desk_.session().measured().scene().wait();
+    desk_.settle();
+  }
+};
+
+TEST_F(SceneDataPanelTest, ShowsTheRunOfARobotAtPlants) {
+  open_push();
+  desk_.ui().view.measured.time = 1.0;
+  desk_.frames(4);
+  check("scene");
+  EXPECT_TRUE(desk_.ui().view.hides_plants) << "the model's shape stands for the plants";
+  ASSERT_EQ(desk_.ui().view.links.size(), 3u);
+  const double angle = discrepancy::ArmAtStem().joint(1.0);
+  EXPECT_NEAR(desk_.ui().view.links[2].position.y(), 0.4 * std::sin(angle), 1e-4);
+  EXPECT_TRUE(place_of("right", "force at wrist")) << keep("scene");
+  desk_.ui().view.measured.shape = false;
+  desk_.frames(3);
+  EXPECT_FALSE(desk_.ui().view.hides_plants);
+  EXPECT_TRUE(desk_.ui().view.links.empty());
+  scroll_down();
+  check("scene_end");
+}
+
+// A point's picture by the renderer lies where the measured camera's picture of it is drawn.
+TEST_F(SceneDataPanelTest, AMeasuredCameraIsLookedThrough) {
+  open_push(-0.2);
+  desk_.ui().view.measured.time = 0.5;
+  desk_.ui().view.measured.camera = 0;
+  desk_.frames(3);
+  const discrepancy::Camera* camera = looked_through(desk_.ui());
+  ASSERT_NE(camera, nullptr);
+  const SceneFrame& frame = desk_.desktop().scene().frame();
+  for (const Vec3& point : {Vec3(0.4, 0.03, 0.0), Vec3(0.4, 0.03, 0.6), Vec3(0.1, 0.3, 0.5)}) {
+    const auto drawn = frame.project(point);
+    ASSERT_TRUE(drawn);
+    const ImVec2 seen = image_place(*camera, frame, discrepancy::image_of(*camera, point));
+    EXPECT_NEAR(seen.x, drawn->x, 0.01);
+    EXPECT_NEAR(seen.y, drawn->y, 0.01);
+  }
+  // A ring about each measured marker: orange at its radius.
+  const render::Image image = desk_.picture();
+  const auto points = image_instant_of(desk_.session().measured().scene(), 0, discrepancy::nominal,
+                                       0, desk_.ui().view.measured.time);
+  ASSERT_EQ(points.size(), 3u);
+  for (const ImageInstant& one : points) {
+    const ImVec2 at = image_place(*camera, frame, one.measured);
+    int found = 0;
+    for (int i = 0; i < 60; ++i) {
+      const double angle = 2.0 * M_PI * i / 60.0;
+      const std::uint8_t* p = image.at(static_cast<int>(at.x + 6.0 * std::cos(angle)),
+                                       static_cast<int>(at.y + 6.0 * std::sin(angle)));
+      found += p[0] > 180 && p[2] < 120;
+    }
+    EXPECT_GT(found, 30) << keep("camera");
+  }
+  // Whoever turns the picture leaves the camera.
+  desk_.move(frame.low.x + 0.5f * frame.size.x, frame.low.y + 0.5f * frame.size.y);
+  desk_.wheel(1);
+  desk_.frames(2);
+  EXPECT_EQ(looked_through(desk_.ui()), nullptr);
 }
 
 }  // namespace

@@ -99,14 +99,25 @@ DiagnosisProgress MeasuredScene::progress() const {
   return diagnosing_ ? diagnosing_->progress() : DiagnosisProgress{};
 }
 
+// Whether the scene itself has the sensors that measured.
+bool MeasuredScene::has_sensors() const {
+  return std::ranges::all_of(experiment_->wrenches, [&](const discrepancy::WrenchSensor& sensor) {
+    return std::ranges::any_of(experiment_->scene.wrenches, [&](const world::SceneWrench& own) {
+      return own.name == sensor.name;
+    });
+  });
+}
+
 std::vector<plant::Effect> MeasuredScene::found_effects() const {
   std::vector<plant::Effect> found;
   if (!diagnosis_ || !diagnosis_->findings.explained()) return found;
   for (const plant::Effect& effect : diagnosis_->model) {
     const discrepancy::SceneEffectDefinition* known = discrepancy::find_scene_effect(effect.name);
     const effects::EffectDefinition* of_plant = effects::find_effect(effect.name);
-    const bool runs = known ? known->home != discrepancy::SceneHome::camera
-                            : of_plant && of_plant->file == effects::EffectFile::plant;
+    bool runs = of_plant && of_plant->file == effects::EffectFile::plant;
+    if (known)
+      runs = known->home != discrepancy::SceneHome::camera &&
+             (known->home != discrepancy::SceneHome::wrench || has_sensors());
     if (runs) found.push_back(effect);
   }
   return found;

@@ -51,7 +51,8 @@ class MeasuredScene {
   DiagnosisProgress progress() const;
   /// The last one that came to an end; null: none did.
   const discrepancy::SceneDiagnosis* diagnosis() const { return diagnosis_.get(); }
-  /// What was found and a run of the scene can have: effects of contact, arm, sensors and plants.
+  /// What was found and a run of the scene can have: effects of contact, arm and plants, and of
+  /// sensors that stand in the scene's file.
   std::vector<plant::Effect> found_effects() const;
 
   /// Takes over what the threads have made; once a frame. What they could not do, a line each.
@@ -63,6 +64,7 @@ class MeasuredScene {
   using Job = DiagnosisJob<discrepancy::SceneDiagnosis>;
   void simulate(const std::vector<discrepancy::Model>& models,
                 const std::vector<discrepancy::SceneVariant>& variants);
+  bool has_sensors() const;
   void take_diagnosis(std::vector<std::string>& faults);
   void retire();
 

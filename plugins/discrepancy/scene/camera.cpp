@@ -32,16 +32,20 @@ Eigen::Vector2d image_of(const Camera& camera, const Vec3& point_W) {
 }
 
 Eigen::Vector2d direction_of(const Camera& camera, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d nowhere =
+      Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   const Eigen::Vector2d wanted = (pixel - camera.centre).cwiseQuotient(camera.focal);
   // Lenses distort little, so the place itself is near. Each turn leaves the error that the
   // distortion's slope makes of the last one.
   Eigen::Vector2d place = wanted;
   for (int i = 0; i < undoing; ++i) {
     const Eigen::Vector2d off = wanted - distorted(camera, place);
-    if (!(off.norm() > undone)) return place;
+    // On the other side of the middle it is where a strong distortion folds the picture over.
+    if (!off.allFinite()) return nowhere;
+    if (off.norm() <= undone) return place.dot(wanted) >= 0.0 ? place : nowhere;
     place += off;
   }
-  return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  return nowhere;
 }
 
 Quat looking_at(const Vec3& eye, const Vec3& target) {

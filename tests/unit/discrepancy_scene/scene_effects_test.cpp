@@ -4,6 +4,7 @@
 
 #include "arm_at_stem.h"
 #include "pedicel/cosserat/solver/standing.h"
+#include "pedicel/discrepancy/scene/camera.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -256,6 +257,22 @@ TEST_F(SceneEffects, OfNoSizeLeaveWhatInstrumentsSay) {
   EXPECT_LT((same.markers - plain.markers).norm(), 1e-12);
   EXPECT_LT((same.wrenches[0] - plain.wrenches[0]).norm(), 1e-12);
   EXPECT_LT((same.pixels[0] - plain.pixels[0]).norm(), 1e-9);
+}
+
+TEST(Camera, ADirectionIsSeenWhereItCameFrom) {
+  Camera camera;
+  camera.focal = {1100, 1050};
+  camera.centre = {650, 340};
+  camera.distortion = {-0.25, 0.1, 0.002, -0.001, -0.02};
+  camera.X_WC = {Vec3(0.2, -1, 0.4), looking_at(Vec3(0.2, -1, 0.4), Vec3(0.1, 0, 0.3))};
+  for (const Vec3& point : {Vec3(0.1, 0, 0.3), Vec3(0.5, 0.1, 0.5), Vec3(-0.3, -0.1, 0.1)}) {
+    const Vec3 p_C = camera.X_WC.inverse() * point;
+    const Eigen::Vector2d direction = direction_of(camera, image_of(camera, point));
+    EXPECT_NEAR(direction.x(), p_C.x() / p_C.z(), 1e-8);
+    EXPECT_NEAR(direction.y(), p_C.y() / p_C.z(), 1e-8);
+  }
+  camera.distortion = {-5.0, 0, 0, 0, 0};  // folds the picture over: most places come from nowhere
+  EXPECT_TRUE(direction_of(camera, {1280, 720}).hasNaN());
 }
 
 }  // namespace
