@@ -281,6 +281,9 @@ class Maker {
     if (order().hidden_start) start_where_hidden();
     for (const TrialPlan& t : case_.trials) {
       Record r = run_trial(subject_, t, case_.setting.markers, fine_);
+      // A plant that softens without end folds where it is held.
+      if (!r.markers.allFinite() || !r.force.allFinite())
+        throw NoTrace(case_.name + ": the reference does not survive " + t.name);
       case_.clean.push_back(r);
       add_noise(r.markers, case_.noise.position_std, case_.noise.rho, random_);
       add_noise(r.force, case_.noise.force_std, 0.0, random_);

@@ -143,7 +143,7 @@ void add_set_rows(const std::vector<Score>& scores, const Counter& count,
   const auto pair = [](const Score& s) { return is(s, "pair"); };
   const auto right = [](const Score& s) { return s.call == Call::right; };
   rows.push_back(row_of("two effects, both named", count(pair, right), "60 %", "85 %"));
-  rows.push_back(row_of("- and modulus and damping, where they were off as well",
+  rows.push_back(row_of("- both, and modulus and damping, where they were off as well",
                         count(pair, named_exactly)));
   rows.push_back(row_of("- one of them, nothing wrong",
                         count(pair, [](const Score& s) { return s.call == Call::partial; })));

@@ -119,6 +119,7 @@ Score blank(const HiddenCase& hidden) {
   s.times = hidden.order.size;
   s.told_apart = hidden.order.told_apart;
   s.hidden = hidden.order.hidden;
+  s.causes = names_of(hidden.causes);
   s.off_too = names_of(hidden.refitted);
   return s;
 }
@@ -139,7 +140,7 @@ const char* name_of(Call call) {
 
 bool named_exactly(const Score& s) {
   if (s.outcome != discrepancy::to_string(Outcome::named)) return false;
-  Names wanted = s.hidden, told = s.said;
+  Names wanted = s.causes, told = s.said;
   wanted.insert(wanted.end(), s.off_too.begin(), s.off_too.end());
   told.insert(told.end(), s.details.begin(), s.details.end());
   return within(s.said, wanted) && within(wanted, told);
@@ -193,6 +194,7 @@ std::string to_line(const Score& s) {
                              {"told_apart", s.told_apart},
                              {"verdict", s.outcome},
                              {"said", s.said},
+                             {"causes", s.causes},
                              {"off_too", s.off_too},
                              {"details", s.details},
                              {"call", name_of(s.call)},
@@ -233,7 +235,8 @@ Score from_line(const std::string& line) {
   json.at("fault").get_to(s.fault);
   s.times = number_of(json.at("times_smallest"));
   s.told_apart = json.value("told_apart", false);
-  s.off_too = json.value("off_too", Names{});  // older lines have neither
+  s.causes = json.value("causes", s.hidden);  // older lines have none of the three
+  s.off_too = json.value("off_too", Names{});
   s.details = json.value("details", Names{});
   s.evidence = number_of(json.at("evidence"));
   s.alarm = number_of(json.at("alarm"));

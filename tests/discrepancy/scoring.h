@@ -43,8 +43,9 @@ struct Score {
   /// That size tells it from every other cause, too; false: it is seen, no more (older lines).
   bool told_apart = false;
   std::vector<std::string> hidden, said;
-  /// Modulus and damping where they were off as well; and what the verdict tells as a detail.
-  std::vector<std::string> off_too, details;
+  /// The names of the registry for what was hidden; modulus and damping where they were off as
+  /// well; and what the verdict tells as a detail.
+  std::vector<std::string> causes, off_too, details;
   Call call = Call::missed;
   /// Share of the true model's gain on trials kept back; absent where the true model gains less
   /// than 10 noise units there, or nothing was named.

@@ -21,6 +21,7 @@ using discrepancy::NamedCause;
 using discrepancy::Outcome;
 using discrepancy::Verdict;
 using Kind = CaseOrder::Kind;
+using Names = std::vector<std::string>;
 
 plant::Effect effect(const std::string& name,
                      std::map<std::string, std::vector<double>> numbers = {}) {
@@ -100,6 +101,29 @@ TEST(Scoring, TwoEffectsLookAlikesAndStrangers) {
   outside.refitted = {effect("youngs_modulus"), effect("damping_time")};
   EXPECT_EQ(call(outside, verdict_of(Outcome::named, {"damping_time"})), Call::missed);
   EXPECT_EQ(call(outside, verdict_of(Outcome::named, {"damping_time", "wind"})), Call::wrong);
+}
+
+// Exactly: modulus and damping are part of what is off, and a detail is no name.
+TEST(Scoring, WhoNamesAllThatIsOff) {
+  HiddenCase c = case_of(Kind::effect, {"wind"});
+  c.refitted = {effect("youngs_modulus"), effect("damping_time")};
+  const auto exactly = [&](const Names& said, const Names& details = {}) {
+    Verdict verdict = verdict_of(Outcome::named, said);
+    for (const std::string& name : details) {
+      NamedCause detail;
+      detail.name = name;
+      verdict.details.push_back(detail);
+    }
+    return named_exactly(score(c, verdict, {}));
+  };
+  EXPECT_TRUE(exactly({"wind", "damping_time", "youngs_modulus"}));
+  EXPECT_TRUE(exactly({"wind", "youngs_modulus"}, {"damping_time", "creep"}));
+  EXPECT_FALSE(exactly({"wind", "youngs_modulus"}));
+  EXPECT_FALSE(exactly({"wind", "damping_time", "youngs_modulus", "creep"}));
+  const Score read = from_line(to_line(score(c, verdict_of(Outcome::named, {"wind"}), {})));
+  EXPECT_EQ(read.off_too, (Names{"youngs_modulus", "damping_time"}));
+  EXPECT_FALSE(named_exactly(read));
+  EXPECT_FALSE(named_exactly(score(c, verdict_of(Outcome::ambiguous, {"wind"}), {})));
 }
 
 // refitted 3, true model 1.1, extended 1.29: (3 - 1.29) / (3 - 1.1) = 0.9. Where the true model

@@ -139,10 +139,13 @@ std::optional<Fault> copied_down(const TrialView& view) {
       const double step = std::abs(samples.value(row, c) - samples.value(row - 1, c));
       if (step > 0.0) finest = std::min(finest, step);
     }
-  // From the end: a row that was copied down goes on to the end.
-  int first = samples.size() - 1;
-  while (first > 0 && is_same_row(samples, first - 1, samples, samples.size() - 1)) --first;
-  const int rows = samples.size() - first;
+  // From the end: a row that was copied down goes on to the end. Rows in which no marker was seen
+  // are gaps, and say nothing.
+  int last = samples.size() - 1;
+  while (last > 0 && !samples.value.row(last).array().isFinite().any()) --last;
+  int first = last;
+  while (first > 0 && is_same_row(samples, first - 1, samples, last)) --first;
+  const int rows = last + 1 - first;
   if (rows < std::max<double>(least_still, still_share * samples.size())) return std::nullopt;
   // Numbers written as coarsely as the noise stand still by themselves.
   if (finest > 0.5 * noise_of_markers(view)) return std::nullopt;

@@ -16,6 +16,7 @@ namespace {
 using laboratory::change_points;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 struct Mistake {
@@ -415,6 +416,14 @@ TEST_P(Contradictions, AreTold) {
   Diagnostics diagnostics;
   add_refusal(diagnostics, admission);
   EXPECT_THAT(diagnostics.text(), StartsWith("day/" + GetParam().said.front() + ": error: "));
+}
+
+// Rows without a marker are gaps, to the end of the record, too.
+TEST(Contradiction, MarkersLostForGoodDoNotStandStill) {
+  Experiment experiment = laboratory::day();
+  Trial& trial = experiment.trials[release_x];
+  trial.markers.value.bottomRows(trial.markers.size() - 150).setConstant(NAN);
+  EXPECT_THAT(admit(experiment).refusal, Not(HasSubstr("stand still")));
 }
 
 constexpr auto name_of = [](const auto& info) { return info.param.name; };
