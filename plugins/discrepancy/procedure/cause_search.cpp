@@ -1,6 +1,8 @@
 #include "pedicel/discrepancy/procedure/cause_search.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "pedicel/discrepancy/data/sentence.h"
 #include "pedicel/discrepancy/select/evidence.h"
@@ -12,18 +14,26 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// The base with the effects of `both` that stand behind those of `first`, from their numbers there.
-// Its numbers begin beside the first cause and not at the cause's own starts, because only there
-// the data have told what is left for it.
-Hypothesis without_first(const Hypothesis& base, const Hypothesis& first, const Hypothesis& both) {
+// At most so many rivals of a cause are fitted in its place: each takes a fit.
+constexpr std::size_t most_rivals = 2;
+
+// The effects of `both` that stand behind those of `first`, from their numbers there.
+Hypothesis behind_first(const Hypothesis& first, const Hypothesis& both) {
   const int effects = static_cast<int>(first.effects.size());
   Hypothesis second;
   second.effects.assign(both.effects.begin() + effects, both.effects.end());
   second.free.assign(both.free.begin() + first.size(), both.free.end());
   for (FreeParameter& free : second.free) free.effect -= effects;
+  return second;
+}
+
+// The base with the effects of `both` that stand behind those of `first`. Its numbers begin beside
+// the first cause and not at the cause's own starts, because only there the data have told what is
+// left for it.
+Hypothesis without_first(const Hypothesis& base, const Hypothesis& first, const Hypothesis& both) {
   Hypothesis alone = base;
   alone.set_unknowns(both.unknowns().head(base.size()));
-  alone.add(second);
+  alone.add(behind_first(first, both));
   alone.name = both.name;
   return alone;
 }
@@ -114,8 +124,13 @@ bool CauseSearch::one_force_does_more() {
   return true;
 }
 
-// Adds causes while something is left.
 void CauseSearch::extend() {
+  add_causes();
+  substitute_first();
+}
+
+// While something is left.
+void CauseSearch::add_causes() {
   while (!state_.findings.chain.empty() &&
          static_cast<int>(state_.findings.chain.size()) < state_.settings().budget.causes &&
          !state_.stopped()) {
@@ -149,11 +164,88 @@ void CauseSearch::extend() {
     // families: a cause stands in for one of its own family most easily.
     if (eliminates_first(first)) continue;
     if (!is_of_another_kind(first)) return;
+    remember_rivals_of_next(next);
     state_.findings.chain.push_back(first);
     state_.result.best = first.fit;
   }
   // The last one added was not looked at yet, and the verdict needs what is left.
   if (!state_.findings.chain.empty()) look_again();
+}
+
+// Those that came as near beside the chain as the one that is added to it.
+void CauseSearch::remember_rivals_of_next(const std::vector<Candidate>& next) {
+  const Candidate& added = next.front();
+  const double margin = margin_over(added, state_.settings());
+  for (std::size_t i = 1; i < next.size() && i <= most_rivals; ++i) {
+    const double behind = added.evidence - next[i].evidence;
+    // Sorted: whole fits first, by evidence.
+    if (!next[i].whole) break;
+    state_.log.note(next[i].cause + " in place of " + added.cause +
+                    text(" would lose by %.4g nats, of %.4g that it must.", behind, margin));
+    if (behind > margin) break;
+    state_.findings.substitutes.push_back({state_.findings.chain.size(), next[i], behind});
+  }
+}
+
+// Whatever came near the first cause alone is fitted beside the others, too: only there it can be
+// compared.
+void CauseSearch::substitute_first() {
+  std::vector<Candidate>& chain = state_.findings.chain;
+  if (chain.size() < 2 || state_.stopped()) return;
+  const Candidate& first = chain.front();
+  const double margin = margin_over(first, state_.settings());
+  // Alone it had to stand in for the others as well, and so had its rivals: they count from farther
+  // behind.
+  const double reach = state_.settings().evidence.most_margins * margin;
+  const FitSummary best = state_.result.best;
+  const double dispersion = std::max(1.0, 2.0 * best.cost / state_.setup->samples());
+  const double own = cost_of_numbers(best, dispersion) - state_.held_out_by(best).gain;
+  const Hypothesis others = behind_first(first.fit.hypothesis, best.hypothesis);
+  std::size_t tried = 0;
+  for (const Candidate& rival : state_.result.ranking) {
+    if (rival.cause == first.cause) continue;
+    if (!rival.whole || first.evidence - rival.evidence > reach || tried == most_rivals) break;
+    const bool found = std::ranges::any_of(
+        chain, [&](const Candidate& named) { return named.cause == rival.cause; });
+    if (found || state_.stopped()) continue;
+    ++tried;
+    Hypothesis instead = rival.fit.hypothesis;
+    instead.add(others);
+    Evaluator evaluator = state_.setup->evaluator();
+    Candidate candidate = rival;
+    candidate.fit = fit(evaluator, instead, state_.fit_options());
+    const double numbers =
+        cost_of_numbers(candidate.fit, dispersion) - state_.held_out_by(candidate.fit).gain;
+    const double behind = (candidate.fit.cost - best.cost) / dispersion + numbers - own;
+    state_.log.note(rival.cause + " in place of " + first.cause +
+                    text(" beside the others loses by %.4g nats, of %.4g that it must.", behind,
+                         margin));
+    state_.findings.substitutes.push_back({0, std::move(candidate), behind});
+  }
+  put_best_first();
+}
+
+// Where a rival does better beside the others than the first cause does, it takes its place.
+void CauseSearch::put_best_first() {
+  std::vector<Candidate>& chain = state_.findings.chain;
+  std::vector<Findings::Substitute>& all = state_.findings.substitutes;
+  const auto of_first = [](const Findings::Substitute& one) { return one.link == 0; };
+  const auto best = std::ranges::min_element(all, {}, [&](const Findings::Substitute& one) {
+    return of_first(one) ? one.behind : std::numeric_limits<double>::infinity();
+  });
+  if (best == all.end() || !of_first(*best) || best->behind >= 0.0) return;
+  const double ahead = -best->behind;
+  const auto alone = std::ranges::find(state_.result.ranking, best->candidate.cause,
+                                       &Candidate::cause);
+  for (Findings::Substitute& one : all)
+    if (of_first(one)) one.behind += ahead;
+  Candidate displaced = chain.front();
+  displaced.fit = std::exchange(state_.result.best, best->candidate.fit);
+  chain.back().fit = state_.result.best;
+  chain.front() = *alone;
+  best->candidate = std::move(displaced);
+  best->behind = ahead;
+  state_.log.note(chain.front().cause + " takes the place of " + best->candidate.cause + ".");
 }
 
 // What the model with all causes so far leaves. Where that is far from the base, our own error
@@ -230,6 +322,7 @@ bool CauseSearch::eliminates_first(const Candidate& next) {
   if (ranking.front().cause != next.cause) return false;
   state_.result.ranking = std::move(ranking);
   state_.findings.chain = {state_.result.ranking.front()};
+  state_.findings.substitutes.clear();
   state_.result.best = state_.findings.chain.front().fit;
   return true;
 }

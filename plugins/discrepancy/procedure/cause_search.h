@@ -22,6 +22,7 @@ class CauseSearch {
   const std::string& instead_of() const { return instead_of_; }
 
  private:
+  void add_causes();
   bool one_force_does_more();
   std::vector<Direction> look_again();
   void lead_by_symptoms(const FitSummary& model, std::vector<Cause>& causes);
@@ -30,6 +31,9 @@ class CauseSearch {
   bool is_worth_more(const Candidate& next) const;
   bool is_of_another_kind(const Candidate& next) const;
   bool eliminates_first(const Candidate& next);
+  void remember_rivals_of_next(const std::vector<Candidate>& next);
+  void substitute_first();
+  void put_best_first();
 
   DiagnosisState& state_;
   ModelCheck& check_;

@@ -257,12 +257,8 @@ void judge_remainder(const Findings& findings, Diagnosis& diagnosis) {
 void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int base_effects) {
   Verdict& verdict = diagnosis.verdict;
   const Candidate& best = diagnosis.ranking.front();
-  // Our model errors scale with the gain.
   const DiagnosisSettings& settings = *findings.settings;
-  // Up to a bound: a large gain must not make a tie of everything.
-  const double margin =
-      settings.levels.clear_odds +
-      std::min(settings.evidence.margin_share * best.gain, settings.evidence.most_margin);
+  const double margin = margin_over(best, settings);
   for (std::size_t i = 1; i < diagnosis.ranking.size(); ++i) {
     const Candidate& competitor = diagnosis.ranking[i];
     const double behind = best.evidence - competitor.evidence;
@@ -278,8 +274,7 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
                                    behind, said_by_data(best) - said_by_data(competitor)) +
                               text(" %g more numbers", more_numbers(competitor, best)) +
                               (turns ? "; one trial alone decides between them." : "."));
-    // Beside several causes each competing model would have to be fitted with the others; it was
-    // not.
+    // Beside several causes a competing model has to be fitted with the others: weigh_substitutes().
     if (beaten || findings.chain.size() > 1 || contains(competitor, best, turns)) {
       // What is named is not its own competitor.
       const bool found = std::ranges::any_of(
@@ -288,6 +283,27 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
       continue;
     }
     verdict.causes.push_back(findings.named(competitor, competitor.fit, base_effects, verdict.fit));
+    verdict.outcome = Outcome::ambiguous;
+  }
+}
+
+// Of several causes, those that others could stand in for: the data say that something is there, and
+// not which.
+void weigh_substitutes(const Findings& findings, Diagnosis& diagnosis, int base_effects) {
+  if (findings.chain.size() < 2) return;
+  Verdict& verdict = diagnosis.verdict;
+  for (const Findings::Substitute& other : findings.substitutes) {
+    if (other.link >= findings.chain.size()) continue;
+    const Candidate& own = findings.chain[other.link];
+    if (other.behind > margin_over(own, *findings.settings) ||
+        contains(other.candidate, own, false))
+      continue;
+    const int effect = base_effects + static_cast<int>(other.link);
+    NamedCause cause = findings.named(other.candidate, other.candidate.fit, effect, verdict.fit);
+    cause.instead_of = own.cause;
+    std::erase_if(verdict.competing,
+                  [&](const CompetingModel& model) { return model.name == cause.name; });
+    verdict.causes.push_back(std::move(cause));
     verdict.outcome = Outcome::ambiguous;
   }
 }
@@ -345,6 +361,7 @@ void conclude_causes(const Findings& findings, Diagnosis& diagnosis) {
   verdict.outcome = Outcome::named;
   // Each of these may only lower the verdict: named, then ambiguous, then unknown.
   weigh_competing_models(findings, diagnosis, base_effects);
+  weigh_substitutes(findings, diagnosis, base_effects);
   judge_remainder(findings, diagnosis);
   show_decoys(findings, diagnosis);
   show_trials_left_out(findings, verdict.causes.front());

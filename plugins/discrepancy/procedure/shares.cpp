@@ -77,7 +77,10 @@ Hypothesis refitted_to(Evaluator& evaluator, const Hypothesis& start, const FitO
 
 const FitSummary* alternative(const Findings& findings, const Diagnosis& diagnosis,
                               const std::string& cause) {
-  // A cause that competes is in no common model. Its share is taken in its own fit.
+  // A cause that competes is in no common model. Its share is taken in its own fit, beside what is
+  // certain where it is one of several.
+  for (const Findings::Substitute& other : findings.substitutes)
+    if (other.candidate.cause == cause) return &other.candidate.fit;
   for (const Candidate& candidate : diagnosis.ranking)
     if (candidate.cause == cause) return &candidate.fit;
   for (const NeededParameters::Instead& other : findings.needed.instead)
@@ -202,6 +205,34 @@ void settle_ambiguity(const Levels& levels, std::vector<NamedCause>& parameters,
   std::ranges::move(parameters, std::back_inserter(verdict.details));
 }
 
+// Of causes that act together some are certain. Where those that are not are too small to matter,
+// they are details, and what is certain is named.
+bool settle_substitutes(const Levels& levels, Verdict& verdict) {
+  const auto group = [](const NamedCause& cause) {
+    return cause.instead_of.empty() ? cause.name : cause.instead_of;
+  };
+  std::vector<std::string> open, large;
+  for (const NamedCause& cause : verdict.causes)
+    if (!cause.instead_of.empty()) open.push_back(cause.instead_of);
+  if (open.empty()) return false;
+  for (const NamedCause& cause : verdict.causes)
+    if (most(cause) >= levels.least_share) large.push_back(group(cause));
+  const auto stays = [&](const NamedCause& cause) {
+    return std::ranges::count(open, group(cause)) == 0 ||
+           std::ranges::count(large, group(cause)) > 0;
+  };
+  const auto small = std::stable_partition(verdict.causes.begin(), verdict.causes.end(), stays);
+  // Something must be left to be named.
+  if (small == verdict.causes.begin()) return false;
+  for (auto cause = small; cause != verdict.causes.end(); ++cause)
+    verdict.details.push_back(std::move(*cause));
+  verdict.causes.erase(small, verdict.causes.end());
+  const bool is_open = std::ranges::any_of(
+      verdict.causes, [](const NamedCause& cause) { return !cause.instead_of.empty(); });
+  if (!is_open) verdict.outcome = Outcome::named;
+  return !is_open;
+}
+
 }  // namespace
 
 void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOptions& options,
@@ -259,9 +290,11 @@ void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOption
     one.cause->share = {fitted.share(one), held_out.share(one)};
     one.cause->change = change_of(evaluator, one, options);
   }
-  if (is_ambiguous) {
+  if (is_ambiguous && !settle_substitutes(levels, verdict)) {
     settle_ambiguity(levels, parameters, verdict);
   } else {
+    // Parameters that waited stand with what is named after all.
+    if (is_ambiguous) std::ranges::move(parameters, std::back_inserter(verdict.causes));
     sort_by_share(verdict.causes);
     set_details_apart(levels, verdict);
   }

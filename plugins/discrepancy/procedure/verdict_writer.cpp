@@ -215,8 +215,17 @@ void VerdictWriter::choose_next() {
   if (verdict.outcome == Outcome::ambiguous) {
     state_.log.say("choosing the next experiment", 0.97);
     std::vector<Hypothesis> models;
+    const bool is_partly = std::ranges::any_of(
+        verdict.causes, [](const NamedCause& cause) { return !cause.instead_of.empty(); });
+    const auto wait = [&](const NamedCause& cause) {
+      // Of causes that act together only those that something would stand in for are to be told
+      // apart.
+      return is_partly && cause.instead_of.empty() &&
+             std::ranges::find(verdict.causes, cause.name, &NamedCause::instead_of) ==
+                 verdict.causes.end();
+    };
     for (const NamedCause& cause : verdict.causes)
-      if (std::ssize(models) < state_.settings().budget.competing_models)
+      if (!wait(cause) && std::ssize(models) < state_.settings().budget.competing_models)
         models.push_back(model_of(cause.name));
     state_.result.next = next_experiment(
         state_.experiment(), state_.setup->data(), models,
@@ -234,6 +243,13 @@ Hypothesis VerdictWriter::model_of(const std::string& cause) const {
   const FitSummary* found = &state_.findings.needed.model;
   for (const Candidate& candidate : state_.result.ranking)
     if (candidate.cause == cause) found = &candidate.fit;
+  // With what is certain beside it, where it is one of several.
+  for (const Findings::Substitute& other : state_.findings.substitutes) {
+    if (other.candidate.cause == cause) found = &other.candidate.fit;
+    if (other.link < state_.findings.chain.size() &&
+        state_.findings.chain[other.link].cause == cause)
+      found = &state_.result.best;
+  }
   for (const NeededParameters::Instead& other : state_.findings.needed.instead)
     if (other.model.hypothesis.name == cause) found = &other.model;
   Hypothesis model = found->hypothesis;

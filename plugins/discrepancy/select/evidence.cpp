@@ -130,6 +130,12 @@ double least_gain_beside(const std::vector<Candidate>& found, const DiagnosisSet
   return 0.5 * change * change;
 }
 
+double margin_over(const Candidate& best, const DiagnosisSettings& settings) {
+  // Up to a bound: a large gain must not make a tie of everything.
+  return settings.levels.clear_odds +
+         std::min(settings.evidence.margin_share * best.gain, settings.evidence.most_margin);
+}
+
 double least_cost(const std::vector<Candidate>& candidates, const FitSummary& base) {
   double least = base.cost;
   // The least that any model leaves is the best that is known of the noise and of our own errors.

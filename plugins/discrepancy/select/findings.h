@@ -19,6 +19,13 @@ struct Findings {
   std::vector<int> fit_trials;
   std::vector<Candidate> chain;     ///< causes found so far, in the order they were added
   HeldOut held_out;                 ///< of all of them together, where they are several
+  /// Of several causes, others that would stand in one's place beside the rest.
+  struct Substitute {
+    std::size_t link = 0;  ///< of the chain
+    Candidate candidate;   ///< fitted with the rest, before which it stands or behind it
+    double behind = 0.0;   ///< nats, of the evidence
+  };
+  std::vector<Substitute> substitutes;
   std::vector<Symptom> symptoms;    ///< of the refitted model
   Eigen::VectorXd parameter_shift;  ///< of the baseline's unknowns, by our own error
   double step = 0.0;                ///< s, of the fits

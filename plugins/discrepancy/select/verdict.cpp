@@ -133,7 +133,13 @@ const io::KeyList& cause_list() {
        {.name = "against",
         .type = KeyType::text,
         .otherwise = Told{"but in `nearest`"},
-        .sentence = "what speaks against it"}}};
+        .sentence = "what speaks against it"},
+       {.name = "instead_of",
+        .type = KeyType::text,
+        .otherwise = Told{"where none is certain"},
+        .sentence = "under `ambiguous`, where several causes act at once: the cause in whose place "
+                    "this one would stand. Causes without it that nothing would stand in for are "
+                    "certain"}}};
   return keys;
 }
 
@@ -355,6 +361,7 @@ Json to_json(const NamedCause& cause) {
                         .json());
   json.set("change", to_json(cause.change));
   if (!cause.against.empty()) json.set("against", cause.against);
+  if (!cause.instead_of.empty()) json.set("instead_of", cause.instead_of);
   return json.json();
 }
 
@@ -646,8 +653,12 @@ std::string named(const Verdict& verdict, const std::string& names, const std::s
 std::string details(const Verdict& verdict) {
   std::string text;
   for (const NamedCause& cause : verdict.details) {
+    if (!cause.instead_of.empty()) continue;
     const std::string size = changed(cause);
-    text += " Beside it " + said(cause, verdict.ratios) +
+    std::string instead;
+    for (const NamedCause& other : verdict.details)
+      if (other.instead_of == cause.name) instead += " or " + said_name(other);
+    text += " Beside it " + said(cause, verdict.ratios) + instead +
             (size.empty() ? "" : ", which changes " + size) + ".";
   }
   return text;
@@ -661,6 +672,23 @@ std::string refit_that_misleads(const Verdict& verdict) {
   return "Refitted to some trials the model is worse in the held-out ones than as the file says (" +
          short_number(*verdict.check.refitted) + " times the noise in place of " +
          short_number(*verdict.check.nominal) + "). ";
+}
+
+// Several causes act at once, and of some the data do not tell which.
+std::string partly_ambiguous(const Verdict& verdict) {
+  std::string certain, open;
+  for (const NamedCause& cause : verdict.causes) {
+    if (!cause.instead_of.empty()) continue;
+    std::string others;
+    for (const NamedCause& other : verdict.causes)
+      if (other.instead_of == cause.name) others += " or " + said_name(other);
+    if (others.empty())
+      certain += (certain.empty() ? "" : " and ") + said(cause, verdict.ratios);
+    else
+      open += (open.empty() ? "" : "; and ") + said_name(cause) + others;
+  }
+  return "Something more is missing, and these data cannot tell which: " + open + "." +
+         (certain.empty() ? "" : " Certain beside it: " + certain + ".");
 }
 
 std::string finding(const Verdict& verdict) {
@@ -683,6 +711,10 @@ std::string finding(const Verdict& verdict) {
     case Outcome::named:
       return named(verdict, names, gain) + details(verdict);
     case Outcome::ambiguous:
+      if (std::ranges::any_of(verdict.causes, [](const NamedCause& cause) {
+            return !cause.instead_of.empty();
+          }))
+        return partly_ambiguous(verdict) + details(verdict);
       return "Something is missing, and these data cannot tell which: " + names + "." +
              details(verdict);
     case Outcome::unknown: {

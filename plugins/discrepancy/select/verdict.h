@@ -45,6 +45,9 @@ struct NamedCause {
   Share share;
   Change change;
   std::string against;  ///< of one that came near: what speaks against it
+  /// Under `ambiguous`, beside causes that are certain: the one in whose place it would stand. Empty
+  /// for all others, and where nothing is certain.
+  std::string instead_of{};
 };
 
 /// What acts from outside, and no known cause is.
