@@ -163,7 +163,8 @@ TEST(FoundEffect, PushTooQuietForAnyTrialAlone) {
   EXPECT_LT(*run.score.force_away, 0.1);
 }
 
-// Records as people make them, of seed 31: probes, a plate at the foot, deflections at rest.
+// Records as people make them, of seed 31: a swing that has begun, a plate at the foot,
+// deflections at rest.
 class FoundInRecords : public ::testing::TestWithParam<int> {};
 
 TEST_P(FoundInRecords, ComesOutAsItShould) {
@@ -181,7 +182,7 @@ std::string record_title(const ::testing::TestParamInfo<int>& info) {
          std::to_string(info.param);
 }
 
-INSTANTIATE_TEST_SUITE_P(Records, FoundInRecords, ::testing::Values(504, 506, 508, 513, 518),
+INSTANTIATE_TEST_SUITE_P(Records, FoundInRecords, ::testing::Values(504, 506, 508, 513),
                          record_title);
 INSTANTIATE_TEST_SUITE_P(Hidden, FoundEffects, ::testing::ValuesIn(chosen_cases()), title);
 
