@@ -122,6 +122,29 @@ std::vector<CaseOrder> outsiders() {
   return list;
 }
 
+// White and coloured noise by turns; rows at rest have no time in which it could have a colour, and
+// show no damping.
+std::vector<CaseOrder> records(const std::vector<RecordUse>& uses) {
+  std::vector<CaseOrder> list;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const RecordUse& use = uses[i];
+    const int row = static_cast<int>(i / 5), k = static_cast<int>(i) + 2 * row;
+    const bool null = use.name.empty(), still = use.pack == PackKind::rest;
+    CaseOrder order = order_of(null ? Kind::null : Kind::effect, k,
+                               use.needs_branch ? plants[1 + row % 2] : plants[k % 4], use.pack);
+    order.coloured = !still && row % 2;
+    order.off =
+        order.off && !null && !still && use.name != "youngs_modulus" && use.name != "damping_time";
+    if (!null) {
+      order.hidden = {use.name};
+      order.size = sizes[k % 8];
+      order.told_apart = true;
+    }
+    list.push_back(order);
+  }
+  return list;
+}
+
 // Lists of different lengths side by side, each evenly over the whole.
 std::vector<CaseOrder> spread(const std::vector<std::vector<CaseOrder>>& lists) {
   std::vector<std::pair<double, CaseOrder>> all;
@@ -144,10 +167,11 @@ const std::vector<CaseOrder>& case_orders() {
   static const std::vector<CaseOrder> orders = [] {
     std::vector<CaseOrder> list =
         spread({nulls(), effects(effect_uses()), pairs(), look_alikes(), outsiders()});
-    for (CaseOrder& order : effects(later_uses())) {
-      order.number = static_cast<int>(list.size());
-      list.push_back(order);
-    }
+    for (const auto& later : {effects(later_uses()), records(record_uses())})
+      for (CaseOrder order : later) {
+        order.number = static_cast<int>(list.size());
+        list.push_back(std::move(order));
+      }
     return list;
   }();
   return orders;

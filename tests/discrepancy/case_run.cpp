@@ -34,6 +34,12 @@ TrueError true_error(const HiddenCase& hidden, const Diagnosis& diagnosis) {
                 truth.samples);
     if (trial.force.size() > 0)
       add_squares(trial.force.value, clean.force, diagnosis.force_noise.std, sum, truth.samples);
+    if (trial.wrench.size() == 0) continue;
+    const Noise& noise = hidden.noise;
+    add_squares(trial.wrench.value.leftCols(3), clean.wrench.leftCols(3), noise.force_std, sum,
+                truth.samples);
+    add_squares(trial.wrench.value.rightCols(3), clean.wrench.rightCols(3), noise.moment_std, sum,
+                truth.samples);
   }
   if (truth.samples > 0) truth.error = std::sqrt(sum / truth.samples);
   return truth;

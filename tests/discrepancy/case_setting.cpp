@@ -158,6 +158,54 @@ TrialPlan sweep(const std::string& name, const Vec3& amplitude, double from, dou
   return t;
 }
 
+// Pulled, let go, and in mid swing when the record begins; a weight hangs on it for a while, so
+// that the record holds a force.
+TrialPlan swing(const Setting& s, const Vec3& start, const std::string& name, const Vec3& pull,
+                double begins, const Vec3& weight) {
+  TrialPlan t = release(s, start, name, pull);
+  t.begins = begins;
+  t.loads = {{s.tip, weight, 3.0, 4.0}};
+  return t;
+}
+
+// A probe on a slide; one that only pushes comes from `gap` (m) beside the stem and goes back.
+TrialPlan probe(const Setting& s, const Vec3& start, const std::string& name, const Vec3& far,
+                double gap, double ramp) {
+  TrialPlan t;
+  t.name = name;
+  t.measures_force = true;
+  const Vec3 axis = far.normalized() + Vec3::Zero();  // no zero with a sign
+  const Vec3 back = gap * axis;
+  t.holds = {held(s, rows(start - back, t.duration, t.interval, [&](double time) {
+                    return Vec3((ease((time - 0.2) / ramp) - ease((time - 4.6 + ramp) / ramp)) *
+                                (far + back));
+                  }))};
+  t.holds[0].axes = {axis};
+  t.holds[0].one_sided = gap > 0.0;
+  return t;
+}
+
+TrialPlan on_plate(TrialPlan t) {
+  t.measures_force = false;
+  t.measures_wrench = true;
+  return t;
+}
+
+// Led from deflection to deflection; `load` (N) hangs at the tip all the time.
+TrialPlan deflections(const Setting& s, const Vec3& start, const std::string& name,
+                      const Vec3& most, const Vec3& load) {
+  TrialPlan t;
+  t.name = name;
+  t.is_static = true;
+  t.measures_force = true;
+  t.interval = 1.0;
+  t.duration = 11.0;
+  t.holds = {held(s, rows(start, t.duration, t.interval,
+                          [&](double row) { return Vec3(row / t.duration * most); }))};
+  if (!load.isZero(0.0)) t.loads = {{s.tip, load}};
+  return t;
+}
+
 }  // namespace
 
 const char* name_of(PlantKind kind) {
@@ -166,8 +214,23 @@ const char* name_of(PlantKind kind) {
 }
 
 const char* name_of(PackKind kind) {
-  constexpr const char* names[] = {"release", "weights", "push", "sweep", "mix"};
+  constexpr const char* names[] = {"release", "weights", "push",  "sweep",  "mix",
+                                   "moving",  "pusher",  "plate", "planar", "rest"};
   return names[static_cast<int>(kind)];
+}
+
+bool as_people_make_them(PackKind kind) {
+  return kind >= PackKind::moving;
+}
+
+// The camera looks along y; every third marker is one of a laser that sees x alone.
+bool measures_axis(PackKind kind, std::size_t marker, int axis) {
+  if (kind != PackKind::planar) return true;
+  return marker % 3 == 1 ? axis == 0 : axis != 1;
+}
+
+bool measures_force_axis(PackKind kind, int axis) {
+  return kind != PackKind::planar || axis == 0;
 }
 
 Setting make_setting(PlantKind kind, Random& random) {
@@ -213,6 +276,27 @@ std::vector<TrialPlan> make_pack(PackKind kind, const Setting& s, const Vec3& st
             release(s, start, "release_2", small * across),
             weights(s.tip, "weights_1", force * other),
             push(s, start, "push_1", large * across, 1.2)};
+  if (kind == PackKind::moving)
+    pack = {swing(s, start, "swing_1", large * other, 1.3, 0.5 * force * other),
+            swing(s, start, "swing_2", 0.7 * large * across, 1.2, 0.5 * force * across),
+            swing(s, start, "swing_3", -large * (other + across).normalized(), 1.4,
+                  0.3 * force * other)};
+  if (kind == PackKind::pusher)
+    pack = {probe(s, start, "push_1", large * other, 0.3 * large, 1.5),
+            probe(s, start, "push_2", large * across, 0.0, 0.6),
+            probe(s, start, "push_3", -large * other, 0.2 * large, 1.0)};
+  if (kind == PackKind::plate)
+    pack = {on_plate(release(s, start, "release_1", large * other)),
+            on_plate(push(s, start, "push_1", large * across, 0.6)),
+            on_plate(push(s, start, "push_2", -large * other, 1.2))};
+  if (kind == PackKind::planar)
+    pack = {release(s, start, "release_1", large * other),
+            weights(s.tip, "weights_1", force * other),
+            push(s, start, "push_1", -large * other, 1.2)};
+  if (kind == PackKind::rest)
+    pack = {deflections(s, start, "rest_1", 1.3 * large * other, Vec3::Zero()),
+            deflections(s, start, "rest_2", 1.3 * large * across, Vec3::Zero()),
+            deflections(s, start, "rest_3", -1.3 * large * other, 0.5 * force * across)};
   for (std::size_t i = 0; i < pack.size(); ++i) pack[i].clock = pause * static_cast<double>(i);
   return pack;
 }

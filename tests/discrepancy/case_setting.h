@@ -9,9 +9,17 @@
 namespace pedicel::hidden {
 
 enum class PlantKind { stem, two_branches, side_branch, stiff_stem };
-enum class PackKind { release, weights, push, sweep, mix };
+/// The last five are records as people make them: swings that have begun when the record begins;
+/// probes that lead along one axis; a plate at the foot that feels force and moment; one camera and
+/// a one-axis load cell; deflections at rest, without time.
+enum class PackKind { release, weights, push, sweep, mix, moving, pusher, plate, planar, rest };
 const char* name_of(PlantKind kind);
 const char* name_of(PackKind kind);
+bool as_people_make_them(PackKind kind);
+
+/// Whether a pack's table has a column of a marker's axis (0 to 2), or of the force's.
+bool measures_axis(PackKind kind, std::size_t marker, int axis);
+bool measures_force_axis(PackKind kind, int axis);
 
 /// A plant with its markers and the place where it is held: about 25 elements of its own
 /// `distance`.

@@ -65,6 +65,7 @@ class Maker {
     case_.noise.position_std = 2e-4 * std::pow(3.0, random_.uniform());
     case_.noise.force_std = 0.005 * std::pow(4.0, random_.uniform());
     case_.noise.rho = order().coloured ? random_.uniform(0.5, 0.95) : 0.0;
+    case_.noise.moment_std = 0.1 * case_.noise.force_std;  // m, times a sensor's force
     if (order().off)
       case_.refitted = {factor("youngs_modulus", random_.uniform(0.7, 1.4)),
                         factor("damping_time", random_.uniform(0.6, 1.6))};
@@ -75,6 +76,7 @@ class Maker {
     coarse_ = {(count("yield") ? 0.5 : 2.0) * case_.setting.plant.distance, 0.005};
     fine_ = {0.25 * case_.setting.plant.distance, 0.0017};
     make_trials();
+    if (order().pack == PackKind::moving && order().kind != Kind::null) find_starts();
   }
 
   void make_trials() {
@@ -103,9 +105,53 @@ class Maker {
 
   Eigen::VectorXd predict(const Subject& subject, const Mesh& mesh) const {
     std::vector<Record> records;
-    for (const TrialPlan& t : case_.trials)
-      records.push_back(run_trial(subject, t, case_.setting.markers, mesh));
-    return whitened(records, case_.noise);
+    for (const TrialPlan& t : case_.trials) records.push_back(seen(subject, t, mesh));
+    Eigen::VectorXd data = whitened(records, case_.noise);
+    Eigen::Index first = 0;
+    for (const Eigen::MatrixXd& start : starts_) {
+      auto trial = data.segment(first, start.rows());
+      trial -= (start * (start.transpose() * trial)).eval();
+      first += start.rows();
+    }
+    return data;
+  }
+
+  // What no table has a column for changes with nothing.
+  Record seen(const Subject& subject, const TrialPlan& trial, const Mesh& mesh) const {
+    Record record = run_trial(subject, trial, case_.setting.markers, mesh);
+    for (int c = 0; c < record.markers.cols(); ++c)
+      if (!measures_axis(order().pack, c / 3, c % 3)) record.markers.col(c).setZero();
+    for (int c = 0; c < record.force.cols(); ++c)
+      if (!measures_force_axis(order().pack, c)) record.force.col(c).setZero();
+    return record;
+  }
+
+  // Where a record begins in mid swing, nobody knows how the plant stands and moves then: what a
+  // push in the quarter second before could change is no trace of anything.
+  void find_starts() {
+    const double force = 0.02 * scale_.reach / tip_softness(case_.setting);
+    for (const TrialPlan& trial : case_.trials) {
+      const auto data = [&](const TrialPlan& t) {
+        return whitened({seen(plain_, t, coarse_)}, case_.noise);
+      };
+      const Eigen::VectorXd plain = data(trial);
+      std::vector<Eigen::VectorXd> columns;
+      for (std::size_t m = 0; m < case_.setting.markers.size(); m += 2)
+        for (const double before : {0.24, 0.1})
+          for (int axis = 0; axis < 3; ++axis) {
+            TrialPlan pushed = trial;
+            pushed.loads.push_back({case_.setting.markers[m].place, force * Vec3::Unit(axis),
+                                    trial.begins - before, trial.begins});
+            columns.push_back(data(pushed) - plain);
+          }
+      Eigen::MatrixXd all(plain.size(), static_cast<Eigen::Index>(columns.size()));
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        all.col(static_cast<Eigen::Index>(i)) = columns[i];
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+      qr.setThreshold(1e-3);
+      qr.compute(all);
+      starts_.push_back(qr.householderQ() * Eigen::MatrixXd::Identity(plain.size(), qr.rank()));
+    }
   }
 
   // What a refit could change as well; the parameter that is itself the cause is not among it.
@@ -222,6 +268,7 @@ class Maker {
       if (better < 0.94) {
         case_.noise.position_std *= better;
         case_.noise.force_std *= better;
+        case_.noise.moment_std *= better;
         for (double& before : case_.visible) before /= better;
         seen /= better;
         case_.nearest.distance /= better;
@@ -287,6 +334,12 @@ class Maker {
       case_.clean.push_back(r);
       add_noise(r.markers, case_.noise.position_std, case_.noise.rho, random_);
       add_noise(r.force, case_.noise.force_std, 0.0, random_);
+      if (r.wrench.rows() > 0) {
+        Eigen::MatrixXd force = r.wrench.leftCols(3), moment = r.wrench.rightCols(3);
+        add_noise(force, case_.noise.force_std, 0.0, random_);
+        add_noise(moment, case_.noise.moment_std, 0.0, random_);
+        r.wrench << force, moment;
+      }
       add_outliers(r.markers, case_.causes, case_.noise.position_std, random_);
       case_.records.push_back(std::move(r));
     }
@@ -307,6 +360,8 @@ class Maker {
   Scale scale_;
   double fine_curvature_ = 0.0;  // 1/m, most_curvature on the mesh of the data
   Vec3 start_ = Vec3::Zero();
+  // Of each trial, orthonormal: changes of whitened data by how the record begins.
+  std::vector<Eigen::MatrixXd> starts_;
   double last_size_ = 0.0;  // of look()
   Eigen::VectorXd last_refit_;
 };

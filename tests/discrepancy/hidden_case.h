@@ -32,7 +32,8 @@ struct CaseOrder {
 const char* name_of(CaseOrder::Kind kind);
 
 /// The cases of the bench: 120 null, 232 with one effect, 32 with two, 32 look-alikes and 32 from
-/// outside the list. The kinds are spread, so that any stretch of numbers holds all of them.
+/// outside the list. The kinds are spread, so that any stretch of numbers holds all of them. Behind
+/// them stand those of later_uses() and record_uses().
 const std::vector<CaseOrder>& case_orders();
 
 /// A finished case: what was hidden, what a diagnosis should say, and where its data lie.

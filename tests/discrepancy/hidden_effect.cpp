@@ -367,4 +367,43 @@ const std::vector<EffectUse>& outside_uses() {
   return uses;
 }
 
+const std::vector<RecordUse>& record_uses() {
+  using enum PackKind;
+  static const std::vector<RecordUse> uses = {
+      {moving, ""},
+      {pusher, ""},
+      {plate, ""},
+      {planar, ""},
+      {rest, ""},
+      {moving, "damping_time"},
+      {pusher, "base_compliance"},
+      {plate, "extra_mass"},
+      {planar, "sensor_lag"},
+      {rest, "weak_segment"},
+      {moving, "extra_mass"},
+      {pusher, "force_lag"},
+      {plate, "hung_relaxation", true},
+      {planar, "latency"},
+      {rest, "rest_shape"},
+      {moving, ""},
+      {pusher, ""},
+      {plate, ""},
+      {planar, ""},
+      {rest, ""},
+      {moving, "leaf_drag"},
+      {pusher, "hung_relaxation", true},
+      {plate, "leaf_drag"},
+      {planar, "base_compliance"},
+      {rest, "base_compliance"},
+      {moving, "weak_segment"},
+      {pusher, "latency"},
+      {plate, "rest_shape"},
+      {moving, "base_compliance"},
+      {pusher, "weak_segment"},
+      {plate, "youngs_modulus"},
+      {moving, "youngs_modulus"},
+  };
+  return uses;
+}
+
 }  // namespace pedicel::hidden

@@ -46,4 +46,13 @@ const std::vector<EffectUse>& effect_uses();
 const std::vector<EffectUse>& later_uses();
 const std::vector<EffectUse>& outside_uses();
 
+/// Records as people make them: a pack, and what is hidden there, or nothing. Their cases stand
+/// behind those of later_uses().
+struct RecordUse {
+  PackKind pack = PackKind::moving;
+  std::string name;  ///< empty: nothing is hidden
+  bool needs_branch = false;
+};
+const std::vector<RecordUse>& record_uses();
+
 }  // namespace pedicel::hidden

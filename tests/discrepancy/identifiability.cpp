@@ -41,6 +41,9 @@ Eigen::VectorXd whitened(const std::vector<reference::Record>& records, const No
   for (const reference::Record& r : records) {
     append(r.markers, noise.position_std, noise.rho, all);
     append(r.force, noise.force_std, 0.0, all);
+    if (r.wrench.rows() == 0) continue;
+    append(r.wrench.leftCols(3), noise.force_std, 0.0, all);
+    append(r.wrench.rightCols(3), noise.moment_std, 0.0, all);
   }
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }

@@ -13,6 +13,7 @@ struct Noise {
   double position_std = 3e-4;  ///< m
   double force_std = 0.01;     ///< N
   double rho = 0.0;            ///< of the markers, from sample to sample; force noise is white
+  double moment_std = 1e-3;    ///< N m, of a moment at the foot
 };
 
 /// All channels of all trials in units of the noise's own innovations: changes of such vectors have

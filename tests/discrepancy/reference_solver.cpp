@@ -304,6 +304,17 @@ Vec3 Solver::velocity(const Place& place) const {
   return b.v + b.w.cross(b.R.col(2) * place.along);
 }
 
+Eigen::Matrix<double, 6, 1> Solver::root_wrench(double middle) {
+  gather(1.0, 0.0, time_, middle);
+  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+  for (const Body& b : body_) {
+    const Vec3 force = b.M * b.a + b.B.transpose() * b.alpha + b.f;
+    sum.head<3>() += force;
+    sum.tail<3>() += b.A * b.alpha + b.B * b.a + b.n + (b.p - clamp_.p).cross(force);
+  }
+  return sum;
+}
+
 double Solver::curvature(int segment) const {
   const Joint& joint = tree_.segments[segment].joint;
   return rotation_log(joint.rest.conjugate() * relative_[segment]).head<2>().norm() / joint.length;

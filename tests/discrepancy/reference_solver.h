@@ -58,6 +58,10 @@ class Solver {
   Vec3 position(const Place& place) const;
   Vec3 velocity(const Place& place) const;
   Mat3 rotation(int segment) const { return body_[segment].R; }
+  /// N and N m, W: force and moment of the clamp on the plant, about the clamp as it is now. What
+  /// it carries: all that is accelerated, less gravity and what pulls and pushes. `middle` says on
+  /// which side of a jump that is, as for PointLaw. After settle() or step().
+  Eigen::Matrix<double, 6, 1> root_wrench(double middle);
   /// Bending (rad over the joint's length, 1/m) of a joint from its unloaded shape.
   double curvature(int segment) const;
   /// Kinetic, elastic and potential energy together, J, with plain joints and without springs.

@@ -126,8 +126,19 @@ class Run {
         [this, &hold, held, k](double t, double middle, const Vec3& x, const Vec3&) -> PointPush {
           if (middle >= hold.release) return {};
           const Mat3 compliance = Mat3::Identity() / k + stretch_below(held);
-          return {compliance.llt().solve(hold.path.at(t).position - x), k};
+          const Vec3 away = hold.path.at(t).position - x;
+          if (!hold.axes.empty()) return led(hold, compliance, away, k);
+          return {compliance.llt().solve(away), k};
         };
+  }
+
+  // Along its axes alone.
+  static PointPush led(const HoldPlan& hold, const Mat3& compliance, const Vec3& away, double k) {
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> axes(3, hold.axes.size());
+    for (std::size_t i = 0; i < hold.axes.size(); ++i) axes.col(i) = hold.axes[i];
+    if (hold.one_sided && axes.col(0).dot(away) <= 0.0) return {};
+    const auto along = (axes.transpose() * compliance * axes).eval();
+    return {axes * along.llt().solve(axes.transpose() * away), k};
   }
 
   // m/N, W: what the segments from the clamp to one give along themselves as they stand now.
@@ -296,7 +307,10 @@ const char* name_of(OutsideEffect::Kind kind) {
   return names[static_cast<int>(kind)];
 }
 
-Record run_trial(const Subject& subject, const TrialPlan& trial,
+namespace {
+
+// From rest at its beginning to its end.
+Record run_whole(const Subject& subject, const TrialPlan& trial,
                  const std::vector<MarkerPlan>& markers, const Mesh& mesh) {
   Run run(subject, trial, mesh);
   Solver& solver = *run.solver;
@@ -310,6 +324,7 @@ Record run_trial(const Subject& subject, const TrialPlan& trial,
   sensors.set_step(h);
   sensors.look(solver);
   if (trial.measures_force) record.force.resize(samples, 3);
+  if (trial.measures_wrench) record.wrench.resize(samples, 6);
   const double force_lag = sensors.lag("force");
   Vec3 pull = run.grip(0.0), shown = pull;
   for (int i = 0; i < samples; ++i) {
@@ -327,6 +342,9 @@ Record run_trial(const Subject& subject, const TrialPlan& trial,
     record.most_curvature = std::max(record.most_curvature, sharpest(solver));
     if (trial.measures_force)
       record.force.row(i) = sensors.felt(force_lag > 0.0 ? shown : run.grip(t));
+    // The accelerations are those of the step's end: what jumps there has not done so yet.
+    if (trial.measures_wrench)
+      record.wrench.row(i) = solver.root_wrench(i > 0 ? t - 0.5 * h : 0.0).transpose();
   }
   sensors.follow();
   record.markers.resize(samples, 3 * static_cast<int>(markers.size()));
@@ -335,6 +353,60 @@ Record run_trial(const Subject& subject, const TrialPlan& trial,
       record.markers.block<1, 3>(i, 3 * static_cast<int>(m)) =
           sensors.seen(m, record.time[i]).transpose();
   return record;
+}
+
+Rows row_at(const Rows& path, double t) {
+  const Pose pose = path.at(t);
+  Rows row{{0.0}, {pose.position}, {}};
+  if (!path.rotation.empty()) row.rotation = {pose.rotation};
+  return row;
+}
+
+// Each sample an equilibrium of its own.
+Record run_static(const Subject& subject, const TrialPlan& trial,
+                  const std::vector<MarkerPlan>& markers, const Mesh& mesh) {
+  Record series;
+  const int samples = static_cast<int>(std::lround(trial.duration / trial.interval)) + 1;
+  for (int i = 0; i < samples; ++i) {
+    const double t = i * trial.interval;
+    TrialPlan one = trial;
+    one.duration = 0.0;
+    for (HoldPlan& hold : one.holds) hold.path = row_at(hold.path, t);
+    if (one.base) one.base = row_at(*one.base, t);
+    const Record row = run_whole(subject, one, markers, mesh);
+    if (i == 0) {
+      series = row;
+      series.markers.resize(samples, row.markers.cols());
+      series.force.resize(trial.measures_force ? samples : 0, 3);
+      series.wrench.resize(trial.measures_wrench ? samples : 0, 6);
+      series.time.clear();
+    }
+    series.time.push_back(t);
+    series.markers.row(i) = row.markers;
+    if (trial.measures_force) series.force.row(i) = row.force;
+    if (trial.measures_wrench) series.wrench.row(i) = row.wrench;
+    series.most_curvature = std::max(series.most_curvature, row.most_curvature);
+    series.settled = series.settled && row.settled;
+  }
+  return series;
+}
+
+// Without what comes before it begins; its clock begins anew.
+Record cut(Record record, const TrialPlan& trial) {
+  const auto rows = std::lround(trial.begins / trial.interval);
+  for (Eigen::MatrixXd* channel : {&record.markers, &record.force, &record.wrench})
+    if (channel->rows() > 0) *channel = channel->bottomRows(channel->rows() - rows).eval();
+  record.time.resize(record.time.size() - static_cast<std::size_t>(rows));
+  return record;
+}
+
+}  // namespace
+
+Record run_trial(const Subject& subject, const TrialPlan& trial,
+                 const std::vector<MarkerPlan>& markers, const Mesh& mesh) {
+  if (trial.is_static) return run_static(subject, trial, markers, mesh);
+  Record record = run_whole(subject, trial, markers, mesh);
+  return trial.begins > 0.0 ? cut(std::move(record), trial) : record;
 }
 
 Vec3 settled_point(const Subject& subject, const TrialPlan& trial, const plant::CurvePlace& place,

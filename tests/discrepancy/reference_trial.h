@@ -24,6 +24,10 @@ struct HoldPlan {
   Rows path;
   double release = std::numeric_limits<double>::infinity();  ///< s
   std::optional<double> stiffness;                           ///< N/m; absent: rigid
+  /// Unit vectors (W), across each other, along which alone it leads; the point slides along the
+  /// others. Empty: it leads along all.
+  std::vector<Vec3> axes{};
+  bool one_sided = false;  ///< of a single axis: it only pushes, along the axis
 };
 
 struct LoadPlan {
@@ -45,7 +49,12 @@ struct TrialPlan {
   std::vector<HoldPlan> holds;
   std::vector<LoadPlan> loads;
   std::optional<Rows> base;
-  bool measures_force = false;  ///< of the first hold
+  bool measures_force = false;   ///< of the first hold
+  bool measures_wrench = false;  ///< of the clamp on the plant
+  /// s: the record begins here, in mid swing. What came before is done by then, and is not in it.
+  double begins = 0.0;
+  /// Every sample is a state at rest, with the paths as they are at its time.
+  bool is_static = false;
 };
 
 struct MarkerPlan {
@@ -82,9 +91,10 @@ struct Subject {
 
 /// Samples without noise; outliers are not part of it.
 struct Record {
-  std::vector<double> time;
+  std::vector<double> time;        ///< s, from where the record begins
   Eigen::MatrixXd markers;         ///< samples x 3 markers, m, W
   Eigen::MatrixXd force;           ///< samples x 3, N, W; empty where it is not measured
+  Eigen::MatrixXd wrench;          ///< samples x 6, N and N m, W; likewise
   double most_curvature = 0.0;     ///< 1/m, of any joint from the unloaded shape at any sample
   double settled_curvature = 0.0;  ///< 1/m, at time 0
   bool settled = true;

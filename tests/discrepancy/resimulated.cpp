@@ -38,12 +38,23 @@ TrialPlan plan_of(const Trial& trial) {
   plan.clock = trial.clock;
   plan.gravity = trial.gravity;
   plan.masses = trial.masses;
-  for (const discrepancy::Hold& hold : trial.holds)
-    plan.holds.push_back({hold.place, rows_of(hold.path), hold.release, hold.stiffness});
+  if (trial.window)
+    throw std::invalid_argument("trial \"" + trial.name +
+                                "\" begins in motion, expected one that begins at rest: what was "
+                                "done before is not known");
+  for (const discrepancy::Hold& hold : trial.holds) {
+    if (hold.direction)
+      throw std::invalid_argument("trial \"" + trial.name +
+                                  "\" has a hold with direction: true, expected none");
+    plan.holds.push_back(
+        {hold.place, rows_of(hold.path), hold.release, hold.stiffness, hold.axes, hold.one_sided});
+  }
   for (const discrepancy::TimedLoad& load : trial.loads)
     plan.loads.push_back({load.place, load.force, load.from, load.to});
   if (trial.base) plan.base = rows_of(*trial.base);
   plan.measures_force = trial.force.size() > 0;
+  plan.measures_wrench = trial.wrench.size() > 0;
+  plan.is_static = trial.is_static;
   return plan;
 }
 
@@ -86,6 +97,14 @@ Experiment resimulated(Experiment experiment, const std::vector<plant::Effect>& 
     if (record.force.rows() > 0) {
       add_noise(record.force, force_std, 0.0, random);
       trial.force = {record.time, record.force};
+    }
+    if (record.wrench.rows() > 0) {
+      Eigen::MatrixXd force = record.wrench.leftCols(3), moment = record.wrench.rightCols(3);
+      add_noise(force, force_std, 0.0, random);
+      add_noise(moment, experiment.noise.moment_std.value_or(0.0), 0.0, random);
+      trial.wrench.time = record.time;
+      trial.wrench.value.resize(record.wrench.rows(), 6);
+      trial.wrench.value << force, moment;
     }
   }
   return experiment;

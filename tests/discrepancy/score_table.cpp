@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace pedicel::hidden {
 
@@ -194,6 +196,26 @@ void add_outside_rows(const Counter& count, std::vector<TableRow>& rows) {
       row_of("- missed", count(outside, [](const Score& s) { return s.call == Call::missed; })));
 }
 
+// Records that begin in mid swing, of probes and plates, with one or two axes, at rest: few of
+// each, and so in no other row.
+bool as_people_record(const Score& s) {
+  static const std::set<std::string> packs{"moving", "pusher", "plate", "planar", "rest"};
+  return packs.contains(s.pack);
+}
+
+void add_record_rows(const Counter& count, std::vector<TableRow>& rows) {
+  const auto effect = [](const Score& s) { return is(s, "effect"); };
+  const auto called = [](Call call) { return [call](const Score& s) { return s.call == call; }; };
+  rows.push_back(row_of("records as people make them: false alarms",
+                        count([](const Score& s) { return is(s, "null"); }, alarmed)));
+  rows.push_back(row_of("- right name alone", count(effect, called(Call::right))));
+  rows.push_back(row_of("- and modulus and damping, where they were off as well",
+                        count(effect, named_exactly)));
+  rows.push_back(row_of("- wrong name said with confidence", count(effect, called(Call::wrong))));
+  rows.push_back(
+      row_of("- \"cannot tell\", the truth among them", count(effect, called(Call::held))));
+}
+
 // P(at most k of n), each with probability p.
 double binomial_below(int k, int n, double p) {
   double sum = 0.0;
@@ -237,7 +259,10 @@ Quantile quantile(std::vector<double> values, double level) {
   return q;
 }
 
-std::vector<TableRow> score_table(const std::vector<Score>& scores) {
+std::vector<TableRow> score_table(const std::vector<Score>& all) {
+  std::vector<Score> scores = all, records;
+  std::ranges::copy_if(all, std::back_inserter(records), as_people_record);
+  std::erase_if(scores, as_people_record);
   const Counter count(scores);
   std::vector<TableRow> rows;
   add_null_rows(count, rows);
@@ -245,6 +270,7 @@ std::vector<TableRow> score_table(const std::vector<Score>& scores) {
   add_set_rows(scores, count, rows);
   add_number_rows(scores, rows);
   add_outside_rows(count, rows);
+  add_record_rows(Counter(records), rows);
   return rows;
 }
 

@@ -31,7 +31,8 @@ struct TableRow {
   std::string good, extraordinary;
 };
 
-/// All figures by which a diagnosis is judged.
+/// All figures by which a diagnosis is judged. Records as people make them have rows of their own,
+/// and are in no other.
 std::vector<TableRow> score_table(const std::vector<Score>& scores);
 
 /// What was hidden against what was said.

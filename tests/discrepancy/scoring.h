@@ -70,8 +70,8 @@ struct Score {
   std::string fault;  ///< why there is no verdict; empty: there is one
 };
 
-/// Whether known effects were named, all that was off with them, and nothing else. What is told as a
-/// detail may be among it, and is no name of its own.
+/// Whether known effects were named, all that was off with them, and nothing else. What is told as
+/// a detail may be among it, and is no name of its own.
 bool named_exactly(const Score& score);
 
 /// Scores `verdict` of the case `hidden`.

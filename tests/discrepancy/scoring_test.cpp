@@ -311,6 +311,31 @@ TEST(ScoreTable, CountsEveryKindAmongItsOwn) {
   EXPECT_NE(markdown(rows).find("| 33.3 % |"), std::string::npos);
 }
 
+TEST(ScoreTable, RecordsAsPeopleMakeThemHaveRowsOfTheirOwn) {
+  const auto in_pack = [](Score s, const char* pack, int number) {
+    s.pack = pack;
+    s.number = number;
+    return s;
+  };
+  std::vector<Score> scores = some_scores();
+  const std::vector<TableRow> before = score_table(scores);
+  scores.push_back(in_pack(scores[1], "moving", 7));  // an alarm
+  scores.push_back(in_pack(scores[0], "rest", 8));
+  scores.push_back(in_pack(scores[0], "planar", 9));
+  scores.push_back(in_pack(scores[2], "pusher", 10));  // named
+  scores.push_back(in_pack(scores[4], "plate", 11));   // among a set
+  const std::vector<TableRow> rows = score_table(scores);
+  const TableRow alarms = row(rows, "records as people make them: false alarms");
+  EXPECT_DOUBLE_EQ(alarms.value, 1.0 / 3.0);
+  EXPECT_EQ(alarms.count, 3);
+  const TableRow right = row(rows, "- right name alone");
+  EXPECT_DOUBLE_EQ(right.value, 0.5);
+  EXPECT_EQ(right.count, 2);
+  for (const char* other : {"false alarms on null data", "wrong name said with confidence",
+                            "mean size of the set", "95 % intervals that hold the truth"})
+    EXPECT_EQ(row(rows, other).count, row(before, other).count) << other;
+}
+
 TEST(ScoreTable, ConfusionHasOneCellACase) {
   const Confusion matrix = confusion(some_scores());
   int all = 0;
