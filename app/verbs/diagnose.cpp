@@ -75,9 +75,7 @@ int run(DiagnoseArguments& a, const CLI::App& verb) {
   if (discrepancy::is_scene_experiment(a.experiment)) {
     if (a.tasks.cluster.wanted() || a.tasks.is_task())
       throw UsageError(a.experiment + ": its model is a scene, expected no --cluster");
-    if (!a.with.empty())
-      throw UsageError(a.experiment + ": its model is a scene, expected no --with");
-    return diagnose_scene_verb(a, a.settings, a.time_limit);
+    return diagnose_scene_verb(a, a.with, a.settings, a.time_limit);
   }
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);

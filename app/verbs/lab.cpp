@@ -9,9 +9,11 @@
 #include "pedicel/app/verbs/diagnose.h"
 #include "pedicel/app/verbs/experiment_run.h"
 #include "pedicel/app/verbs/observe.h"
+#include "pedicel/app/verbs/scene_experiment.h"
 #include "pedicel/core/stop.h"
 #include "pedicel/discrepancy/data/more_trials.h"
 #include "pedicel/discrepancy/report/report.h"
+#include "pedicel/discrepancy/scene/scene_experiment.h"
 #include "pedicel/io/atomic_file.h"
 
 namespace pedicel::app {
@@ -38,6 +40,8 @@ discrepancy::Experiment answered(const LabArguments& a, const discrepancy::Diagn
 }
 
 int run(const LabArguments& a) {
+  if (discrepancy::is_scene_experiment(a.experiment))
+    return lab_scene_verb(a, a.truth, a.set, a.rounds);
   discrepancy::Experiment experiment = load_experiment(a);
   const plant::PlantFile nominal = experiment.plant;
   const std::filesystem::path folder = a.folder("lab_", experiment);
@@ -56,13 +60,7 @@ int run(const LabArguments& a) {
       std::filesystem::create_directories(in / name);
       write_diagnosis(in / name, experiment, found);
       last = found.verdict;
-      nlohmann::ordered_json causes = nlohmann::ordered_json::array();
-      for (const discrepancy::NamedCause& cause : last.causes) causes.push_back(cause.name);
-      told.push_back({{"round", round},
-                      {"trials", experiment.trials.size()},
-                      {"verdict", to_string(last.outcome)},
-                      {"causes", causes},
-                      {"next", last.next_experiment}});
+      told.push_back(lab_round(round, experiment.trials.size(), last));
       if (!a.json) std::cout << name << ": " << headline(last) << std::endl;
       if (!found.next.experiment || round == a.rounds) break;
       discrepancy::Experiment answer = answered(a, found, round);
@@ -84,12 +82,23 @@ int run(const LabArguments& a) {
 
 }  // namespace
 
+nlohmann::ordered_json lab_round(int round, std::size_t trials,
+                                 const discrepancy::Verdict& verdict) {
+  nlohmann::ordered_json causes = nlohmann::ordered_json::array();
+  for (const discrepancy::NamedCause& cause : verdict.causes) causes.push_back(cause.name);
+  return {{"round", round},
+          {"trials", trials},
+          {"verdict", to_string(verdict.outcome)},
+          {"causes", causes},
+          {"next", verdict.next_experiment}};
+}
+
 std::function<int()> add_lab_verb(CLI::App& app) {
   const auto a = std::make_shared<LabArguments>();
   CLI::App* verb = app.add_subcommand(
       "lab", "play diagnosis and next experiment against a hidden truth, round after round");
   verb->add_option("truth", a->truth,
-                   "plant file (or scene or experiment) of what is really there, with its effects")
+                   "plant file, scene or experiment of what is really there, with its effects")
       ->required();
   add_experiment(*verb, *a);
   verb->add_option("--rounds", a->rounds, "experiments to do at most")->check(CLI::Range(0, 100));

@@ -4,9 +4,12 @@
 #include <cstdio>
 
 #include "pedicel/app/bench/parallel_worlds.h"
+#include "pedicel/app/verbs/lab.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
+#include "pedicel/discrepancy/report/scene_next_report.h"
 #include "pedicel/discrepancy/report/scene_report.h"
+#include "pedicel/discrepancy/scene/more_scene_trials.h"
 #include "pedicel/discrepancy/scene/scene_data.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/discrepancy/scene/scene_observe.h"
@@ -120,6 +123,13 @@ void write_scene_diagnosis(const std::filesystem::path& folder, const SceneExper
     for (const std::string& left : extended.left)
       diagnosis.text += "  extended.scene.yaml is without " + left + "\n";
   }
+  try {
+    verdict.next = discrepancy::write_scene_next(folder, diagnosis.next);
+  } catch (const UsageError& fault) {
+    // The verdict stands without it.
+    std::filesystem::remove_all(folder / "next");
+    diagnosis.text += std::string("  no next/: ") + fault.what() + "\n";
+  }
   io::write_file_atomically(folder / "findings.txt", diagnosis.text);
   io::write_file_atomically(folder / "verdict.json", to_json(verdict) + "\n");
   discrepancy::write_scene_report(folder, experiment, diagnosis);
@@ -127,20 +137,32 @@ void write_scene_diagnosis(const std::filesystem::path& folder, const SceneExper
 
 }  // namespace
 
-int diagnose_scene_verb(const ExperimentArguments& a, const std::vector<std::string>& settings,
-                        double time_limit) {
-  discrepancy::SceneDiagnosisOptions options;
-  for (const std::string& one : settings) discrepancy::set_setting(options.settings, one);
-  const SceneExperiment experiment = read_whole(a.experiment, {});
+namespace {
+
+std::filesystem::path folder_of(const ExperimentArguments& a, const std::string& prefix,
+                                const SceneExperiment& experiment) {
+  if (!a.out.empty()) return a.out;
+  return std::filesystem::path("out") /
+         (prefix + std::filesystem::absolute(experiment.folder).filename().string());
+}
+
+void check_fitted(const ExperimentArguments& a, const SceneExperiment& experiment) {
   if (std::ranges::all_of(experiment.trials, [](const discrepancy::SceneTrial& trial) {
         return trial.use == discrepancy::Trial::Use::check;
       }))
     throw UsageError(a.experiment + ": every trial has use: check, expected one to be fitted");
-  const std::filesystem::path folder =
-      a.out.empty()
-          ? std::filesystem::path("out") /
-                ("diagnosis_" + std::filesystem::absolute(experiment.folder).filename().string())
-          : std::filesystem::path(a.out);
+}
+
+}  // namespace
+
+int diagnose_scene_verb(const ExperimentArguments& a, const std::vector<std::string>& with,
+                        const std::vector<std::string>& settings, double time_limit) {
+  discrepancy::SceneDiagnosisOptions options;
+  for (const std::string& one : settings) discrepancy::set_setting(options.settings, one);
+  SceneExperiment experiment = read_whole(a.experiment, {});
+  for (const std::string& later : with) discrepancy::add_trials(read_whole(later, {}), experiment);
+  check_fitted(a, experiment);
+  const std::filesystem::path folder = folder_of(a, "diagnosis_", experiment);
   a.check(folder, {"report.html", "verdict.json", "findings.txt"});
   options.threads = a.thread_count();
   options.time_limit = time_limit;
@@ -163,6 +185,103 @@ int diagnose_scene_verb(const ExperimentArguments& a, const std::vector<std::str
     std::printf("%swritten to %s\n", discrepancy::scene_card_text(diagnosis).c_str(),
                 folder.string().c_str());
   return stopped ? stop_exit_code() : exit_code(diagnosis.verdict.outcome);
+}
+
+namespace {
+
+/// Rounds of diagnosis and next motion.
+class SceneLab {
+ public:
+  SceneLab(const ExperimentArguments& a, const std::string& truth,
+           const std::vector<std::string>& set)
+      : a_(a), truth_(scene_of(truth)), set_(set), experiment_(read_whole(a.experiment, {})) {
+    check_fitted(a, experiment_);
+  }
+
+  /// Into a folder that is being written.
+  void play(const std::filesystem::path& in, int rounds) {
+    for (int round = 0; round <= rounds; ++round) {
+      discrepancy::SceneDiagnosis found = diagnosis();
+      if (stopped_) break;  // the rounds before stay
+      const std::string name = "round_" + std::to_string(round);
+      std::filesystem::create_directories(in / name);
+      write_scene_diagnosis(in / name, experiment_, found);
+      last_ = found.verdict;
+      told_.push_back(lab_round(round, experiment_.trials.size(), last_));
+      if (!a_.json) std::printf("%s: %s\n", name.c_str(), headline(last_).c_str());
+      std::fflush(stdout);
+      if (last_.next.empty() || round == rounds) break;
+      answer(in / name / "next", found.next, round);
+    }
+    io::write_file_atomically(in / "lab.json", told_.dump(2) + "\n");
+  }
+
+  std::filesystem::path folder() const { return folder_of(a_, "lab_", experiment_); }
+  bool stopped() const { return stopped_; }
+  const discrepancy::Verdict& last() const { return last_; }
+  std::string told() const { return told_.dump(2); }
+
+ private:
+  discrepancy::SceneDiagnosis diagnosis() {
+    discrepancy::SceneDiagnosisOptions options;
+    options.threads = a_.thread_count();
+    options.stop = &stop_requested;
+    ProgressLine progress;
+    options.progress = progress.callback(a_.quiet);
+    discrepancy::SceneDiagnosis found = discrepancy::diagnose_scene(experiment_, options);
+    stopped_ = stop_requested;
+    progress.end(stopped_);
+    return found;
+  }
+
+  // The motion that was asked for, on the truth, with the noise that the instruments have shown;
+  // what was measured takes the place of the plan's empty tables.
+  void answer(const std::filesystem::path& plan, const discrepancy::SceneNext& next, int round) {
+    SceneExperiment like = read_whole(plan, truth_);
+    like.noise = next.noise;
+    discrepancy::SceneVariant variant;
+    for (const std::string& text : set_) variant.effects.push_back(parse_effect(text, like));
+    const ObserveArguments usual;
+    discrepancy::SceneObserveOptions options;
+    options.numerics.distance = usual.distance;
+    options.numerics.dt = usual.dt;
+    options.seed =
+        static_cast<std::uint64_t>(a_.seed) + 1000u * static_cast<std::uint64_t>(round + 1);
+    options.threads = a_.thread_count();
+    SceneExperiment measured =
+        *next.experiment;  // what was measured does not say what the truth is
+    try {
+      measured.trials = discrepancy::observed_scene(std::move(like), variant, options).trials;
+    } catch (const discrepancy::SceneFailed& fault) {
+      throw UnstableWorld(fault.what());
+    }
+    measured.folder = plan;
+    discrepancy::write_scene_experiment(plan, measured);
+    discrepancy::add_trials(measured, experiment_);
+  }
+
+  const ExperimentArguments& a_;
+  std::filesystem::path truth_;  // a scene
+  const std::vector<std::string>& set_;
+  SceneExperiment experiment_;
+  nlohmann::ordered_json told_ = nlohmann::ordered_json::array();
+  discrepancy::Verdict last_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+int lab_scene_verb(const ExperimentArguments& a, const std::string& truth,
+                   const std::vector<std::string>& set, int rounds) {
+  SceneLab lab(a, truth, set);
+  const std::filesystem::path folder = lab.folder();
+  a.write(folder, [&](const std::filesystem::path& in) { lab.play(in, rounds); });
+  if (lab.stopped()) return stop_exit_code();
+  if (a.json)
+    std::printf("%s\n", lab.told().c_str());
+  else
+    std::printf("written to %s\n", folder.string().c_str());
+  return exit_code(lab.last().outcome);
 }
 
 }  // namespace pedicel::app

@@ -20,10 +20,16 @@ std::string check_scene_experiment(const std::filesystem::path& path, Diagnostic
 int observe_scene_verb(const ObserveArguments& arguments);
 
 /// `pedicel diagnose` of such an experiment: verdict, report and extended scene go to `out`.
-/// `settings`: NAME=VALUE, of discrepancy::SceneSettings. `time_limit`: s, after which the search
-/// ends and what is known is told. Returns the exit code. Throws InvalidFile, UsageError,
-/// io::WriteError.
-int diagnose_scene_verb(const ExperimentArguments& arguments,
+/// `with`: folders of trials that were done afterwards. `settings`: NAME=VALUE, of
+/// discrepancy::SceneSettings. `time_limit`: s, after which the search ends and what is known is
+/// told. Returns the exit code. Throws InvalidFile, UsageError, io::WriteError.
+int diagnose_scene_verb(const ExperimentArguments& arguments, const std::vector<std::string>& with,
                         const std::vector<std::string>& settings, double time_limit);
+
+/// `pedicel lab` of such an experiment. `truth`: a scene with its effects, or an experiment of one;
+/// `set`: further effects of it, as in a file. Returns the exit code. Throws InvalidFile,
+/// UsageError, UnstableWorld, io::WriteError.
+int lab_scene_verb(const ExperimentArguments& arguments, const std::string& truth,
+                   const std::vector<std::string>& set, int rounds);
 
 }  // namespace pedicel::app

@@ -5,6 +5,7 @@
 
 #include "pedicel/discrepancy/report/report_plots.h"
 #include "pedicel/discrepancy/report/report_words.h"
+#include "pedicel/discrepancy/report/scene_next_report.h"
 #include "pedicel/discrepancy/report/verdict_tables.h"
 #include "pedicel/discrepancy/test/symptom_parts.h"
 #include "pedicel/io/atomic_file.h"
@@ -188,6 +189,7 @@ std::string scene_report_text(const SceneExperiment& experiment, const SceneDiag
   page.subheading("What to do next");
   page.paragraph(scene_next_text(v));
   page.end_card();
+  add_next_motion(page, d.next);
   page.heading("Measured against simulated");
   page.paragraph("Fitted: " + trial_names(experiment, d.fit_trials) + ". Held out: " +
                  (d.check_trials.empty() ? "none" : trial_names(experiment, d.check_trials)) + ".");

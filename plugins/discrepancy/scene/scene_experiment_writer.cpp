@@ -117,25 +117,6 @@ std::vector<std::string> columns_of(const SceneExperiment& experiment,
   return names;
 }
 
-void write_tables(const fs::path& folder, const SceneExperiment& experiment,
-                  const SceneTrial& trial) {
-  const auto write = [&](const std::string& file, const std::vector<std::string>& names,
-                         const Samples& samples) {
-    if (samples.size() > 0) io::write_file_atomically(folder / file, table_text(names, samples));
-  };
-  write("joints.csv", columns_of(experiment, trial.joint_columns), trial.joints);
-  write("commands.csv", columns_of(experiment, trial.command_columns), trial.commands);
-  write("torques.csv", columns_of(experiment, trial.torque_columns), trial.torques);
-  write("markers.csv", marker_columns(experiment.markers), trial.markers);
-  for (std::size_t c = 0; c < trial.pixels.size(); ++c)
-    write("pixels_" + experiment.cameras[c].name + ".csv", pixel_columns(experiment.markers),
-          trial.pixels[c]);
-  for (std::size_t w = 0; w < trial.wrenches.size(); ++w)
-    write("wrench_" + experiment.wrenches[w].name + ".csv", wrench_columns(), trial.wrenches[w]);
-  if (!trial.events.empty())
-    io::write_file_atomically(folder / "events.csv", scene_events_text(trial.events));
-}
-
 /// All files that a scene names, its own first.
 std::set<fs::path> files_of(const SceneExperiment& experiment) {
   std::set<fs::path> files = {experiment.scene.file, experiment.scene.robot->file};
@@ -156,6 +137,25 @@ std::set<fs::path> files_of(const SceneExperiment& experiment) {
 
 }  // namespace
 
+void write_scene_tables(const fs::path& folder, const SceneExperiment& experiment,
+                        const SceneTrial& trial) {
+  const auto write = [&](const std::string& file, const std::vector<std::string>& names,
+                         const Samples& samples) {
+    if (samples.size() > 0) io::write_file_atomically(folder / file, table_text(names, samples));
+  };
+  write("joints.csv", columns_of(experiment, trial.joint_columns), trial.joints);
+  write("commands.csv", columns_of(experiment, trial.command_columns), trial.commands);
+  write("torques.csv", columns_of(experiment, trial.torque_columns), trial.torques);
+  write("markers.csv", marker_columns(experiment.markers), trial.markers);
+  for (std::size_t c = 0; c < trial.pixels.size(); ++c)
+    write("pixels_" + experiment.cameras[c].name + ".csv", pixel_columns(experiment.markers),
+          trial.pixels[c]);
+  for (std::size_t w = 0; w < trial.wrenches.size(); ++w)
+    write("wrench_" + experiment.wrenches[w].name + ".csv", wrench_columns(), trial.wrenches[w]);
+  if (!trial.events.empty())
+    io::write_file_atomically(folder / "events.csv", scene_events_text(trial.events));
+}
+
 void write_scene_experiment(const fs::path& folder, const SceneExperiment& experiment) {
   const fs::path from = fs::weakly_canonical(experiment.scene.file).parent_path();
   const fs::path to = folder / experiment.scene_path.parent_path();
@@ -167,7 +167,7 @@ void write_scene_experiment(const fs::path& folder, const SceneExperiment& exper
     io::write_file_atomically(to / beside, io::read_text_file(file));
   }
   for (const SceneTrial& trial : experiment.trials)
-    write_tables(folder / trial.name, experiment, trial);
+    write_scene_tables(folder / trial.name, experiment, trial);
   // Last, so that a folder with an experiment.yaml is whole.
   io::write_file_atomically(folder / "experiment.yaml", experiment_text(experiment));
 }

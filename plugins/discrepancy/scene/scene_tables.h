@@ -31,6 +31,10 @@ std::vector<SceneEvent> read_scene_events(const std::filesystem::path& file,
                                           Diagnostics& diagnostics);
 
 std::string table_text(const std::vector<std::string>& names, const Samples& samples);
+/// All tables of a trial that have rows, and its events, into its folder. Throws io::WriteError.
+void write_scene_tables(const std::filesystem::path& folder, const SceneExperiment& experiment,
+                        const SceneTrial& trial);
+
 std::string scene_events_text(const std::vector<SceneEvent>& events);
 
 /// Names of the columns after `time`, in the order of Samples.

@@ -111,6 +111,9 @@ class Procedure {
   // Only few iterations, and from where the search ended: which cause it is has been decided.
   void polish() {
     SceneFindings& found = out_.findings;
+    // The next motion is chosen with the search's mesh. Numbers of another one would make a
+    // difference that no model makes.
+    searched_ = found;
     SceneEvaluator evaluator(fine_, data_, options_.settings);
     const auto refit = [&](SceneFitResult& fit) {
       if (stopped() || late()) return;
@@ -195,6 +198,7 @@ class Procedure {
     tell("writing down what was found", 0.97);
     // With predictions of the fine simulator throughout, since these numbers are shown.
     conclude_scene(fine_, data_, options_.settings.search, out_);
+    plan_next();
     // Of the refitted model and not of the extended one: a symptom is what the data show beside
     // what everybody would fit.
     out_.verdict.symptoms =
@@ -209,6 +213,27 @@ class Procedure {
       out_.text += "  " + sentence + "\n";
     // Last, so that what the conclusion simulated counts, too.
     set_cost();
+  }
+
+  // The motion that parts the models which are left open.
+  void plan_next() {
+    const std::vector<SceneRival> rivals = open_rivals(searched_);
+    // What was cut short has not looked at all models.
+    if (stopped() || late() || searched_.partial || rivals.size() < 2) return;
+    tell("looking for the motion that decides", 0.9);
+    SceneNextOptions how;
+    how.numerics = coarse();
+    how.settings = options_.settings;
+    how.threads = options_.threads;
+    how.stop = options_.stop;
+    // Where something is wrong most clearly, motions like it show it best.
+    const std::vector<double> misfit = misfits();
+    for (const int t : out_.fit_trials)
+      if (misfit[static_cast<std::size_t>(t)] > misfit[static_cast<std::size_t>(how.base)] ||
+          t == out_.fit_trials.front())
+        how.base = t;
+    out_.next = next_scene_experiment(experiment_, data_, rivals, how, more_);
+    tell_next_motion(out_.next, out_.verdict);
   }
 
   void set_cost() {
@@ -230,8 +255,9 @@ class Procedure {
   Clock::time_point begin_ = Clock::now();
   SceneDataSet data_;
   SceneSimulator fine_;
-  long more_ = 0;     // simulations beside
-  bool cut_ = false;  // by a stop that was taken back
+  long more_ = 0;           // simulations beside
+  bool cut_ = false;        // by a stop that was taken back
+  SceneFindings searched_;  // as the search left them
   SceneDiagnosis out_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pedicel/discrepancy/scene_fit/scene_search.h"
+#include "pedicel/discrepancy/scene_next/scene_next.h"
 #include "pedicel/discrepancy/select/verdict.h"
 #include "pedicel/discrepancy/settings/scene_settings.h"
 
@@ -34,6 +35,7 @@ struct SceneDiagnosis {
   std::vector<SceneReadings> nominal, refitted, extended;
   std::vector<plant::Effect> model;  ///< the extended one, on top of the files
   std::string text;                  ///< the fits, for people
+  SceneNext next;                    ///< the motion that parts what is left open
 };
 
 /// Which trials are fitted and which held out: as the experiment says; where it says nothing, of

@@ -418,6 +418,15 @@ class Conclusion {
 
 }  // namespace
 
+void tell_next_motion(const SceneNext& next, Verdict& verdict) {
+  std::string& said = verdict.next_experiment;
+  if (next.experiment)
+    // A thing from outside is seen by eye sooner than by any motion.
+    said = verdict.unknown ? said + ". " + next.sentence : next.sentence;
+  else if (!next.sentence.empty() && verdict.outcome == Outcome::ambiguous)
+    said = next.sentence + ". What can: " + said;
+}
+
 void conclude_scene(SceneSimulator& simulator, const SceneDataSet& data,
                     const SceneSearchSettings& settings, SceneDiagnosis& diagnosis) {
   Conclusion(simulator, data, settings, diagnosis).run();
