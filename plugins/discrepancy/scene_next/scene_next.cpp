@@ -7,7 +7,6 @@
 #include "pedicel/discrepancy/scene/smooth_readings.h"
 #include "pedicel/discrepancy/scene_fit/scene_noise.h"
 #include "pedicel/discrepancy/scene_next/motion_designs.h"
-#include "pedicel/io/csv.h"
 
 namespace pedicel::discrepancy {
 
@@ -148,6 +147,7 @@ class Choice {
     double apart = 0.0;  // noise units in all, of the first model from the one nearest to it
     std::size_t other = 1;
     std::optional<double> refitted;
+    std::vector<double> left;  // by model, what a refit leaves of its distance from the first
     std::vector<SceneReadings> predictions;
     double value() const { return refitted.value_or(apart); }
   };
@@ -248,13 +248,12 @@ class Choice {
         }
         ways.push_back(change * spreads[v].root);
       }
-      one.refitted = always;
-      for (std::size_t v = 1; v < rivals_.size(); ++v) {
-        const double left = left_of(at[v] - at[0], ways[0], ways[v]);
-        if (left >= *one.refitted) continue;
-        one.refitted = left;
-        one.other = v;
-      }
+      one.left.assign(rivals_.size(), 0.0);
+      for (std::size_t v = 1; v < rivals_.size(); ++v)
+        one.left[v] = left_of(at[v] - at[0], ways[0], ways[v]);
+      const auto nearest = std::min_element(one.left.begin() + 1, one.left.end());
+      one.refitted = *nearest;
+      one.other = static_cast<std::size_t>(nearest - one.left.begin());
     }
     sort(motions);
   }
@@ -325,12 +324,14 @@ class Choice {
     next_.tried.clear();
     for (const Motion& one : motions) tell(designs, one);
     next_.tried.insert(next_.tried.end(), others.begin(), others.end());
+    // Where one model stays too near, a motion that parts another one is a step all the same.
+    if (motions.front().value() < enough(motions.front())) look_at_farther(motions);
     Motion& best = motions.front();
     const std::string pair = next_.names[0] + " from " + next_.names[best.other];
-    const std::string units = io::format_number(best.value(), 2) + " noise units in all";
+    const std::string units = std::to_string(std::lround(best.value())) + " noise units in all";
     if (best.value() < enough(best)) {
       next_.sentence = "No motion that was tried out parts " + pair + " (the best one by " + units +
-                       ", and " + io::format_number(enough(best), 2) + " are needed)";
+                       ", and " + std::to_string(std::lround(enough(best))) + " are needed)";
       return;
     }
     set_channel(best);
@@ -338,6 +339,19 @@ class Choice {
                      "; they then differ by " + units + ", most at " + next_.channel.name;
     plan(designs[best.design]);
     next_.predictions = std::move(best.predictions);
+  }
+
+  void look_at_farther(std::vector<Motion>& motions) const {
+    std::optional<Motion> found;
+    for (const Motion& one : motions)
+      for (std::size_t v = 1; v < one.left.size(); ++v) {
+        Motion farther = one;
+        farther.refitted = one.left[v];
+        farther.other = v;
+        if (farther.value() >= enough(farther) && (!found || worth(farther) > worth(*found)))
+          found = std::move(farther);
+      }
+    if (found) motions.insert(motions.begin(), std::move(*found));
   }
 
   // The channel with the largest difference of the two in one sample: people look at one curve.
