@@ -64,7 +64,7 @@ void add_competition(SceneSearchSettings& s, SettingRows& rows) {
 void add_material(SceneSearchSettings& s, SettingRows& rows) {
   rows.number(
       "named_deviations", s.named_deviations,
-      "Deviations at which a number of a plant's file, or an alternative, is told to be off.",
+      "Deviations at which a number of a plant's file, or a competing model, is told to be off.",
       {derived, "one in 370 by chance", "Small errors of the plant file are not told."});
   rows.number("modulus_known_to", s.modulus_known_to,
               "Logarithm of a modulus: what a file's own number is known to.",
