@@ -18,9 +18,8 @@ const char* channel_name(SceneChannel kind);
 /// the predictions where widen() was called).
 class SceneDataSet {
  public:
-  /// Deviations as stated; what is not is estimated from how neighbouring samples differ (half the
-  /// mean square of second differences at rest: the smallest of ten parts of each column). Keeps a
-  /// reference.
+  /// Deviations as stated; what is not is estimated from third differences of neighbouring samples,
+  /// by a part in ten of each column that has few of them. Keeps a reference.
   explicit SceneDataSet(const SceneExperiment& experiment);
 
   /// Counts samples less where predictions are unsure of themselves: `others` are predictions as

@@ -232,6 +232,15 @@ void widen_errors(SceneFitResult& fit, const Eigen::MatrixXd& off) {
     fit.standard_error[p] = std::hypot(fit.standard_error[p], moved.row(p).norm());
 }
 
+Between between(const SceneFitResult& one, const SceneFitResult& other) {
+  const Eigen::VectorXd way = other.residual - one.residual;
+  const double length = way.norm();
+  if (length == 0.0) return {0.5, std::numeric_limits<double>::infinity()};
+  // Residuals are measured less predicted, so what is left of the first goes down on the way to
+  // where the data are. What it leaves beyond the noise counts as noise here, too.
+  return {-one.residual.dot(way) / (length * length), std::max(1.0, one.sum.rms()) / length};
+}
+
 SceneFitResult fit_scene(SceneEvaluator& evaluator, const Hypothesis& start,
                          const SceneFitOptions& options) {
   const SceneCost cost(evaluator, start, options.trials);

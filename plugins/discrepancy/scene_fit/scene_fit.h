@@ -61,6 +61,15 @@ SceneFitResult look_at(SceneEvaluator& evaluator, const Hypothesis& model,
 /// noise over the residual's entries, for each reason; all of a column is off together.
 void widen_errors(SceneFitResult& fit, const Eigen::MatrixXd& off);
 
+/// Where data lie on the straight way between what two models foretell: 0 as one does, 1 as the
+/// other.
+struct Between {
+  double at = 0.0;
+  double error = 0.0;  ///< one deviation; infinite where both foretell the same
+};
+/// Of two fits to the same trials under the same noise.
+Between between(const SceneFitResult& one, const SceneFitResult& other);
+
 /// Modulus, density and damping of the plants, as factors on what their files say; and where a
 /// plant stands, where nothing that was measured shows it but what it does to the arm.
 Hypothesis scene_baseline(const SceneExperiment& experiment,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "pedicel/effects/registry/effect_definition.h"
 #include "pedicel/io/csv.h"
@@ -125,6 +126,7 @@ class Search {
   Hypothesis plain_baseline() const { return scene_baseline(experiment_, evaluator_.settings()); }
 
   void judge_baseline() {
+    found_.baseline_cost = cost_of(found_.baseline);
     found_.baseline_excess = SceneDataSet::beyond_noise(found_.baseline.sum);
     found_.baseline_check = held_out(found_.baseline.model);
   }
@@ -227,35 +229,63 @@ class Search {
     });
     screened = best_of_each(tried(base, screened));
     double best = base_excess;
-    int done = 0;
+    std::size_t done = 0;
     // A second cause is looked for on top of one that has explained much.
-    const int most = names.empty() ? how_.refits : (how_.refits + 1) / 2;
+    const auto most = static_cast<std::size_t>(names.empty() ? how_.refits : (how_.refits + 1) / 2);
     for (const ScreenedCause& one : screened) {
       if (done == most || stopped()) break;
       // They are in order, so all that follow are farther behind.
       if (done > 0 &&
           excess_of(one.linear_cost, base.sum) > how_.behind * std::max(best, allowed()))
         break;
-      tell("refitting with " + one.name, from + (to - from) * (0.3 + 0.7 * done / most));
-      SceneCandidate candidate;
-      candidate.names = names;
-      candidate.names.push_back(one.name);
-      // From where the linear put all numbers, the base's among them.
-      candidate.fit = fit(one.model, how_.first_iterations, options_.trials);
-      judge(candidate);
-      // Where it leaves too much it may not have arrived, unless it leaves most of it.
-      if (!candidate.fit.converged && candidate.excess > allowed() &&
-          candidate.excess < how_.halfway * base_excess && !stopped()) {
-        candidate.fit = fit(candidate.fit.model, how_.last_iterations, options_.trials);
-        judge(candidate);
-      }
-      best = std::min(best, candidate.excess);
-      // Kept also where it does badly, for what is told of causes that came near.
-      found_.candidates.push_back(std::move(candidate));
+      tell(
+          "refitting with " + one.name,
+          from + (to - from) * (0.3 + 0.5 * static_cast<double>(done) / static_cast<double>(most)));
+      found_.candidates.push_back(refitted(one, names, base_excess));
+      best = std::min(best, found_.candidates.back().excess);
       ++done;
     }
     sort_candidates();
+    tell("refitting with causes of fewer numbers", from + 0.8 * (to - from));
+    refit_plainer(std::span(screened).subspan(done), names, base_excess, most);
     keep_best_of_each();
+  }
+
+  // Extended by a cause that was looked at in the linear.
+  SceneCandidate refitted(const ScreenedCause& one, const std::vector<std::string>& names,
+                          double base_excess) {
+    SceneCandidate candidate;
+    candidate.names = names;
+    candidate.names.push_back(one.name);
+    // From where the linear put all numbers, the base's among them.
+    candidate.fit = fit(one.model, how_.first_iterations, options_.trials);
+    judge(candidate);
+    // Where it leaves too much it may not have arrived, unless it leaves most of it.
+    if (!candidate.fit.converged && candidate.excess > allowed() &&
+        candidate.excess < how_.halfway * base_excess && !stopped()) {
+      candidate.fit = fit(candidate.fit.model, how_.last_iterations, options_.trials);
+      judge(candidate);
+    }
+    // Kept also where it does badly, for what is told of causes that came near.
+    return candidate;
+  }
+
+  // The more numbers a cause has, the more of anything its linear prediction takes. So those with
+  // fewer numbers than the best are judged by a refit, and not by their place in that order alone:
+  // one that does as well is told before the best, and where it does alone nothing has to be added
+  // to the best.
+  void refit_plainer(std::span<const ScreenedCause> others, const std::vector<std::string>& names,
+                     double base_excess, std::size_t most) {
+    std::size_t done = 0;
+    for (const ScreenedCause& one : others) {
+      // As many again, so that the time is at most twice as long.
+      if (done == most || found_.candidates.empty() || stopped()) return;
+      // Asked at each, as a plainer one may lead by now.
+      if (one.model.size() >= found_.candidates.front().fit.model.size()) continue;
+      found_.candidates.push_back(refitted(one, names, base_excess));
+      sort_candidates();
+      ++done;
+    }
   }
 
   void sort_candidates() {
@@ -420,8 +450,9 @@ class Search {
     std::vector<std::size_t> near = {0};
     for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
       const SceneCandidate& one = found_.candidates[i];
-      // Two causes always explain what one does.
-      if (one.names.size() > best.names.size() || !is_enough(one)) continue;
+      // Two causes always explain what one does. And a cause without which the baseline does hardly
+      // worse explains nothing, however plain it is.
+      if (one.names.size() > best.names.size() || !is_enough(one) || !pays(one)) continue;
       // A share of what the best leaves, because what is left of both is mostly what solvers differ
       // by.
       if (score(one) - score(best) < how_.tie_share * square(best.excess) + how_.least_tie)
@@ -430,11 +461,25 @@ class Search {
     std::size_t fewest = things(best);
     for (const std::size_t i : near) fewest = std::min(fewest, things(found_.candidates[i]));
     std::erase_if(near, [&](std::size_t i) { return things(found_.candidates[i]) > fewest; });
+    std::erase_if(near, [&, all = near](std::size_t i) {
+      return std::ranges::any_of(all, [&](std::size_t other) {
+        return speaks_for(found_.candidates[other].fit, found_.candidates[i].fit);
+      });
+    });
     // They are in the order of their scores, so this is the best of the plainest.
     const std::size_t first = near.front();
     for (std::size_t i = 1; i < near.size(); ++i) found_.competing.push_back(near[i]);
     std::rotate(found_.candidates.begin(), found_.candidates.begin() + static_cast<long>(first),
                 found_.candidates.begin() + static_cast<long>(first) + 1);
+  }
+
+  // Whether the data are where one model puts them, on the way to what another one foretells.
+  // By how much worse the other is does not say so, since two solvers differ by more. But were the
+  // other right, what solvers differ by would have to look just as the two models differ.
+  bool speaks_for(const SceneFitResult& one, const SceneFitResult& other) const {
+    const Between data = between(one, other);
+    return std::abs(data.at) < how_.named_deviations * data.error &&
+           1.0 - data.at > how_.named_deviations * data.error;
   }
 
   // Numbers beside the causes that left what is known of them.

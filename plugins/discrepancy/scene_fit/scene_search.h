@@ -35,6 +35,7 @@ struct SceneFindings {
   Outcome outcome = Outcome::adequate;
   double nominal_excess = 0.0;                          ///< noise units, of the files' own model
   SceneFitResult baseline;                              ///< modulus, density and damping refitted
+  double baseline_cost = 0.0;                           ///< nats, as a candidate's
   double baseline_excess = 0.0;                         ///< noise units
   std::optional<double> nominal_check, baseline_check;  ///< the same on trials held out
   std::vector<SceneCandidate> candidates;               ///< those with causes, the best first

@@ -186,9 +186,8 @@ class Conclusion {
     const SceneFitResult& fit = candidate.fit;
     NamedCause cause;
     cause.name = name;
-    // Half a sum of squares is a log likelihood. The candidate's cost has the price of its numbers
-    // in it.
-    cause.evidence = 0.5 * found_.baseline.sum.square - candidate.cost;
+    // Both with the price of all their numbers: those of the baseline are in either.
+    cause.evidence = found_.baseline_cost - candidate.cost;
     std::vector<plant::Effect> without;
     // The others keep their numbers: a change is what this cause makes in the model that is told,
     // and nothing else.

@@ -62,9 +62,10 @@ void add_competition(SceneSearchSettings& s, SettingRows& rows) {
 }
 
 void add_material(SceneSearchSettings& s, SettingRows& rows) {
-  rows.number("named_deviations", s.named_deviations,
-              "Deviations at which a number of a plant's file is told to be off.",
-              {derived, "one in 370 by chance", "Small errors of the plant file are not told."});
+  rows.number(
+      "named_deviations", s.named_deviations,
+      "Deviations at which a number of a plant's file, or a competing model, is told to be off.",
+      {derived, "one in 370 by chance", "Small errors of the plant file are not told."});
   rows.number("modulus_known_to", s.modulus_known_to,
               "Logarithm of a modulus: what a file's own number is known to.",
               {measured, "what two solvers make of it; no figure was kept",
@@ -103,7 +104,8 @@ void add_effort(SceneSearchSettings& s, SettingRows& rows) {
              {budget, scene_time, "Such diagnoses take longer."});
   rows.count("tried", s.tried, "Causes whose linear prediction is tried in full.",
              {budget, scene_time, "Searches take longer."});
-  rows.count("refits", s.refits, "Causes refitted in the first round; half in the next.",
+  rows.count("refits", s.refits,
+             "Causes refitted in the first round, and as many of fewer numbers; half in the next.",
              {budget, scene_time, "Searches take up to twice as long."});
   rows.count("causes", s.causes, "The most causes together.",
              {budget, scene_time, "Searches that end as unknown take longer."});

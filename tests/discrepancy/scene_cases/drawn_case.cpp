@@ -81,7 +81,7 @@ Hidden draw_hidden(const std::string& name, const Setting& s, Draw& draw) {
     const double z =
         s.height * (draw.chance(0.5) ? draw.between(0.3, 0.42) : draw.between(0.75, 0.92));
     const double way = bent(z, 0.55 * s.height, 0.03) * draw.between(0.4, 0.65);
-    return {name, {{"position", {s.root.x(), draw.sign() * (way + s.radius), z}}}};
+    return {name, {{"position", {s.root.x(), s.root.y() + draw.sign() * (way + s.radius), z}}}};
   }
   if (name == "string") {
     const double at = draw.between(0.65, 0.98), aside = draw.between(0.12, 0.25);

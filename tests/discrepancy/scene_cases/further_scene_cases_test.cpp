@@ -5,16 +5,18 @@
 namespace pedicel::scene_case {
 namespace {
 
-// More cases of `scene_bench --seed 1`: latency with another modulus, a reaction, a sensor's bias
-// with another modulus, a sensor's gain, a camera's place, its focal length with another modulus,
-// its lens.
+// More cases of `scene_bench --seed 1`: an encoder's zero, latency with another modulus, a
+// reaction, a load, a sensor's bias with another modulus, a sensor's gain, a camera's place, its
+// focal length with another modulus, its lens; a load at a plant that stands elsewhere with another
+// modulus, and a gain beside a camera's place.
 class FurtherSceneCases : public testing::TestWithParam<int> {};
 
 TEST_P(FurtherSceneCases, ComesOutRight) {
   expect_right(1, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Something, FurtherSceneCases, testing::Values(11, 12, 14, 15, 16, 17, 18),
+INSTANTIATE_TEST_SUITE_P(Something, FurtherSceneCases,
+                         testing::Values(10, 11, 12, 13, 14, 15, 16, 17, 18, 28, 32),
                          [](const testing::TestParamInfo<int>& info) {
                            return test_name(info.param);
                          });

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 
 #include "discrepancy/score_table.h"
 #include "pedicel/io/csv.h"
@@ -109,6 +110,8 @@ SceneScore run_case(const Order& order, std::uint64_t seed, const std::filesyste
   score.hidden = hidden_names(setting);
   try {
     const std::vector<Outside> outside = write_case(folder, setting);
+    if (order.kind == "outside" && std::ranges::none_of(outside, &Outside::acts))
+      throw std::logic_error("what is outside acts in no trial, so there is nothing to find");
     Diagnostics diagnostics;
     const auto experiment = discrepancy::read_scene_experiment(folder, diagnostics);
     if (!experiment) throw InvalidFile(diagnostics);
