@@ -102,6 +102,10 @@ class Procedure {
     how.renew_noise = [&](const std::vector<plant::Effect>& effects) {
       widen_noise(simulator, data, {effects}, predictions_of(fine_, {effects}));
     };
+    how.push_shift = [&](const std::vector<plant::Effect>& effects) {
+      return push_shift(simulator, effects, data_.deviation(SceneChannel::force),
+                        options_.settings.robot);
+    };
     out_.findings = search_scene(evaluator, how);
     // The simulator goes with this function, and its count with it.
     more_ += simulator.simulations();
