@@ -124,8 +124,8 @@ class SceneCost : public ceres::CostFunction {
       // next one, which is therefore never simulated for its own sake. Ten times at most: beyond a
       // contact that begins nothing can be told from before it.
       const double size = std::max(change.norm(), 1.0e-3);
-      step_[p] = std::clamp(step_[p] * std::clamp(how.wanted_change / size, 0.1, 10.0),
-                            least_[p], std::max(least_[p], how.most_step));
+      step_[p] = std::clamp(step_[p] * std::clamp(how.wanted_change / size, 0.1, 10.0), least_[p],
+                            std::max(least_[p], how.most_step));
     }
     has_jacobian_ = true;
   }

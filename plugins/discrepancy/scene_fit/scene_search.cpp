@@ -142,7 +142,8 @@ class Search {
       const Vec3 shift = options_.push_shift(moved.effects);
       if (shift.norm() < how_.least_displacement) return;
       for (const int p : places)
-        moved.set_value(p, moved.value(p) + shift[moved.free[static_cast<std::size_t>(p)].component]);
+        moved.set_value(p,
+                        moved.value(p) + shift[moved.free[static_cast<std::size_t>(p)].component]);
       SceneFitResult next = fit(moved, how_.baseline_iterations, options_.trials);
       if (next.sum.square >= found_.baseline.sum.square) return;
       found_.baseline = std::move(next);

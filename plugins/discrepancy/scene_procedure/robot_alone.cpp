@@ -95,7 +95,8 @@ class RobotAlone {
     int count = 0;
     for (std::size_t t = 0; t < experiment_.trials.size(); ++t) {
       const SceneTrial& trial = experiment_.trials[t];
-      const SceneReadings own = untouched(static_cast<int>(t)), model = touched(static_cast<int>(t));
+      const SceneReadings own = untouched(static_cast<int>(t)),
+                          model = touched(static_cast<int>(t));
       if (!own.healthy || !model.healthy) continue;
       for (std::size_t w = 0; w < trial.wrenches.size(); ++w) {
         if (trial.wrenches[w].size() < 10) continue;
@@ -103,8 +104,7 @@ class RobotAlone {
         const std::optional<Push> push = firmest(felt);
         if (!push || felt.largest() < how_.least_push * force_std_) continue;
         const Samples foretold{trial.wrenches[w].time, model.wrenches[w]};
-        const Push there =
-            push_between(less(foretold, own.wrenches[w]), push->from, push->until);
+        const Push there = push_between(less(foretold, own.wrenches[w]), push->from, push->until);
         if (there.force.norm() < how_.least_push * force_std_) continue;
         const int link = experiment_.wrenches[w].link;
         const std::optional<Vec3> a = place_of(trial, *push, link),

@@ -80,8 +80,7 @@ void look_at_attachment(StalkTold& stalk, const SceneDiagnosis& found) {
   }
   stalk.attachment = Told{off.norm(), is_inside};
   const Eigen::Vector2d a = said_way.head<2>(), b = way.head<2>();
-  stalk.direction =
-      Told{std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b))), is_inside};
+  stalk.direction = Told{std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b))), is_inside};
 }
 
 void look_at_modulus(StalkTold& stalk, const SceneDiagnosis& found) {
@@ -155,7 +154,8 @@ Setting pushed_stalk(std::uint64_t seed) {
   Draw draw(seed * 3571 + 11);
   const double far = draw.between(0.4, 1.0) * farthest,
                turn = draw.between(0.0, 2.0 * std::numbers::pi);
-  s.hidden.push_back({"plant_pose", {{"offset", {far * std::cos(turn), far * std::sin(turn), 0.0}}}});
+  s.hidden.push_back(
+      {"plant_pose", {{"offset", {far * std::cos(turn), far * std::sin(turn), 0.0}}}});
   s.hidden.push_back(
       {"youngs_modulus", {{"factor", {std::pow(softest, draw.between(-1.0, 1.0))}}}});
   return s;
@@ -216,7 +216,8 @@ std::string table(const std::vector<StalkTold>& stalks) {
     moments.add(one.moment, static_cast<std::size_t>(one.pulled.trials), moment_aim);
   }
   return text + "\n`!`: the truth is outside of the 95 % interval.\n\n" +
-         "| what | within the aim, 95 % by Wilson | intervals that hold the truth |\n|---|---|---|\n" +
+         "| what | within the aim, 95 % by Wilson | intervals that hold the truth "
+         "|\n|---|---|---|\n" +
          holds.line("place of hold, 1 cm") + attachments.line("attachment, 1 cm") +
          directions.line("direction in which it is displaced, 5 degrees") +
          moduli.line("modulus, 5 %") + moments.line("moment of detachment, 30 ms");
