@@ -28,7 +28,17 @@ class SceneCost : public ceres::CostFunction {
         trials_(trials),
         rows_(rows_of(evaluator.data(), trials)),
         // A first guess. It is put right by what the first difference shows.
-        step_(Eigen::VectorXd::Constant(start.size(), evaluator.settings().fit.first_step)) {
+        step_(Eigen::VectorXd::Constant(start.size(), evaluator.settings().fit.first_step)),
+        least_(Eigen::VectorXd::Constant(start.size(), evaluator.settings().fit.least_step)) {
+    // Moved by a micrometre, an unseen plant sticks to the tool elsewhere, which changes as much as
+    // a millimetre does: derivatives over less would be of that, and errors a tenth of what they
+    // are.
+    for (int p = 0; p < start.size(); ++p) {
+      const effects::FreeParameter& free = start.free[static_cast<std::size_t>(p)];
+      if (told_of_baseline(start.effects[static_cast<std::size_t>(free.effect)], free))
+        least_[p] = evaluator.settings().fit.least_place_step;
+    }
+    step_ = step_.cwiseMax(least_);
     // A row a number for what is known beforehand; it stays zero where nothing is.
     set_num_residuals(static_cast<int>(rows_) + start.size());
     mutable_parameter_block_sizes()->push_back(start.size());
@@ -114,8 +124,8 @@ class SceneCost : public ceres::CostFunction {
       // next one, which is therefore never simulated for its own sake. Ten times at most: beyond a
       // contact that begins nothing can be told from before it.
       const double size = std::max(change.norm(), 1.0e-3);
-      step_[p] = std::clamp(step_[p] * std::clamp(how.wanted_change / size, 0.1, 10.0),
-                            how.least_step, how.most_step);
+      step_[p] = std::clamp(step_[p] * std::clamp(how.wanted_change / size, 0.1, 10.0), least_[p],
+                            std::max(least_[p], how.most_step));
     }
     has_jacobian_ = true;
   }
@@ -124,7 +134,9 @@ class SceneCost : public ceres::CostFunction {
   Hypothesis model_;
   std::span<const int> trials_;
   long rows_;
-  mutable Eigen::VectorXd step_, last_, residual_;
+  mutable Eigen::VectorXd step_;
+  Eigen::VectorXd least_;
+  mutable Eigen::VectorXd last_, residual_;
   mutable Eigen::MatrixXd jacobian_;
   mutable bool has_jacobian_ = false;
   mutable int evaluations_ = 0;

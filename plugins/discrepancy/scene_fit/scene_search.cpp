@@ -87,6 +87,7 @@ class Search {
     // long way, and everything after is judged against it.
     if (!found_.baseline.converged && found_.baseline.model.size() > 3)
       found_.baseline = fit(found_.baseline.model, how_.baseline_iterations, options_.trials);
+    follow_pushes();
     judge_baseline();
     renew_at_baseline();
     look_for_causes();
@@ -121,6 +122,33 @@ class Search {
     // All at once, one simulation a place. The fit goes on from the best one.
     left.colwise().squaredNorm().minCoeff(&best);
     return starts[static_cast<std::size_t>(best)];
+  }
+
+  // Where an unseen plant stands along the tool is a valley: its sides, when the tool touches, are
+  // so much steeper than its floor that a fit ends anywhere in it. By the wrench's moment the place
+  // of the push is known beforehand, so the plant is put there.
+  void follow_pushes() {
+    if (!options_.push_shift) return;
+    for (int again = 0; again < how_.renewals && !stopped(); ++again) {
+      Hypothesis moved = found_.baseline.model;
+      std::vector<int> places;
+      for (int p = 0; p < moved.size(); ++p) {
+        const effects::FreeParameter& free = moved.free[static_cast<std::size_t>(p)];
+        const plant::Effect& effect = moved.effects[static_cast<std::size_t>(free.effect)];
+        const SceneEffectDefinition* known = told_of_baseline(effect, free);
+        if (known && free.component < known->in_baseline->without_slope) places.push_back(p);
+      }
+      // Of several unseen plants it is not known which one was pushed.
+      if (places.empty() || places.size() > 2) return;
+      const Vec3 shift = options_.push_shift(moved.effects);
+      if (shift.norm() < how_.least_displacement) return;
+      for (const int p : places)
+        moved.set_value(p,
+                        moved.value(p) + shift[moved.free[static_cast<std::size_t>(p)].component]);
+      SceneFitResult next = fit(moved, how_.baseline_iterations, options_.trials);
+      if (next.sum.square >= found_.baseline.sum.square) return;
+      found_.baseline = std::move(next);
+    }
   }
 
   Hypothesis plain_baseline() const { return scene_baseline(experiment_, evaluator_.settings()); }

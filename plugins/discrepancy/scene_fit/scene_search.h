@@ -28,6 +28,9 @@ struct SceneSearchOptions {
   std::function<bool()> stop;  ///< true: what is known so far is to be concluded
   /// Takes the predictions' own noise anew, at a model (widen_noise()); none: it stays.
   std::function<void(const std::vector<plant::Effect>&)> renew_noise;
+  /// m, W: by how much farther the tool pushes than a model says, by wrenches (push_shift()); none:
+  /// it is not known.
+  std::function<Vec3(const std::vector<plant::Effect>&)> push_shift;
 };
 
 struct SceneFindings {

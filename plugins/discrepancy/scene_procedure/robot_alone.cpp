@@ -89,6 +89,34 @@ class RobotAlone {
     return std::move(found_);
   }
 
+  // In both over the stretch in which the measured push is firm.
+  Vec3 shift() {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (std::size_t t = 0; t < experiment_.trials.size(); ++t) {
+      const SceneTrial& trial = experiment_.trials[t];
+      const SceneReadings own = untouched(static_cast<int>(t)),
+                          model = touched(static_cast<int>(t));
+      if (!own.healthy || !model.healthy) continue;
+      for (std::size_t w = 0; w < trial.wrenches.size(); ++w) {
+        if (trial.wrenches[w].size() < 10) continue;
+        const Felt felt = less(trial.wrenches[w], own.wrenches[w]);
+        const std::optional<Push> push = firmest(felt);
+        if (!push || felt.largest() < how_.least_push * force_std_) continue;
+        const Samples foretold{trial.wrenches[w].time, model.wrenches[w]};
+        const Push there = push_between(less(foretold, own.wrenches[w]), push->from, push->until);
+        if (there.force.norm() < how_.least_push * force_std_) continue;
+        const int link = experiment_.wrenches[w].link;
+        const std::optional<Vec3> a = place_of(trial, *push, link),
+                                  b = place_of(trial, there, link);
+        if (!a || !b) continue;
+        sum += *a - *b;
+        ++count;
+      }
+    }
+    return sum / std::max(1, count);
+  }
+
  private:
   void look_at(int t) {
     const SceneTrial& trial = experiment_.trials[static_cast<std::size_t>(t)];
@@ -111,13 +139,30 @@ class RobotAlone {
     return alone_.run({&request, 1}).front();
   }
 
-  // Where one force would give the moment: nearest to what all samples of a firm push say.
-  void tell_place(int t, const SceneTrial& trial, const Felt& felt, int link) {
-    const double most = felt.largest();
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-    double time = 0.0;
+  /// Means over a stretch of time.
+  struct Push {
+    double from = 0.0, until = 0.0, time = 0.0;  // s
     int count = 0;
-    // The longest stretch of a firm push is one place; its middle stands for it.
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  };
+  static Push push_between(const Felt& felt, double from, double until) {
+    Push push;
+    push.from = from, push.until = until;
+    for (std::size_t i = 0; i < felt.time.size(); ++i) {
+      if (felt.time[i] < from || felt.time[i] > until) continue;
+      push.force += felt.force[i];
+      push.moment += felt.moment[i];
+      push.time += felt.time[i];
+      ++push.count;
+    }
+    const double count = std::max(1, push.count);
+    push.force /= count, push.moment /= count, push.time /= count;
+    return push;
+  }
+
+  // The longest stretch of a firm push is one place; its middle stands for it.
+  std::optional<Push> firmest(const Felt& felt) const {
+    const double most = felt.largest();
     std::size_t best = 0, length = 0, begin = 0;
     for (std::size_t i = 0; i <= felt.force.size(); ++i) {
       const bool firm = i < felt.force.size() && felt.force[i].norm() > how_.firm_share * most;
@@ -125,16 +170,11 @@ class RobotAlone {
       if (i - begin > length) best = begin, length = i - begin;
       begin = i + 1;
     }
-    for (std::size_t i = best; i < best + length; ++i) {
-      force += felt.force[i];
-      moment += felt.moment[i];
-      time += felt.time[i];
-      ++count;
-    }
-    if (count < 3) return;
-    force /= count, moment /= count, time /= count;
-    if (trial.follows_commands) return;  // where its links are is not known before it is simulated
-    const Arm arm(experiment_, state_);
+    if (length < 3) return std::nullopt;
+    return push_between(felt, felt.time[best], felt.time[best + length - 1]);
+  }
+
+  std::vector<Pose> links_at(const Arm& arm, const SceneTrial& trial, double time) const {
     const JointPath path = path_of(experiment_, trial);
     SceneMember member;
     member.state = &state_;
@@ -142,15 +182,35 @@ class RobotAlone {
     member.path = &path;
     std::vector<Pose> links;
     arm.model().link_poses(arm_at(member, time).q, links);
+    return links;
+  }
+
+  SceneReadings touched(int t) {
+    const SceneVariant variant{model_};
+    const SceneSimulator::Request request{&variant, t};
+    return simulator_.run({&request, 1}).front();
+  }
+
+  // Where one force would give the moment: nearest to what all samples of a firm push say.
+  std::optional<Vec3> place_of(const SceneTrial& trial, const Push& push, int link) const {
+    if (trial.follows_commands) return std::nullopt;  // its links are not known beforehand
+    const Arm arm(experiment_, state_);
+    const std::vector<Pose> links = links_at(arm, trial, push.time);
     const Pose& sensor = links[static_cast<std::size_t>(link)];
-    const Vec3 f = sensor.rotation * force, m = sensor.rotation * moment;
-    const std::optional<Vec3> place =
-        entry(arm, links, link, sensor.position + f.cross(m) / f.squaredNorm(), f.normalized());
+    const Vec3 f = sensor.rotation * push.force, m = sensor.rotation * push.moment;
+    return entry(arm, links, link, sensor.position + f.cross(m) / f.squaredNorm(), f.normalized());
+  }
+
+  void tell_place(int t, const SceneTrial& trial, const Felt& felt, int link) {
+    const std::optional<Push> push = firmest(felt);
+    if (!push) return;
+    const std::optional<Vec3> place = place_of(trial, *push, link);
     if (!place) return;
-    const double error = moment_std_ / std::sqrt(static_cast<double>(count)) / f.norm() +
-                         force_std_ / std::sqrt(static_cast<double>(count)) / f.norm() *
-                             (*place - sensor.position).norm();
-    tell_along(t, trial, time, *place, error);
+    const std::vector<Pose> links = links_at(Arm(experiment_, state_), trial, push->time);
+    const double far = (*place - links[static_cast<std::size_t>(link)].position).norm();
+    const double samples = std::sqrt(static_cast<double>(push->count));
+    const double error = (moment_std_ + force_std_ * far) / samples / push->force.norm();
+    tell_along(t, trial, push->time, *place, error);
   }
 
   // m, W: where the line of a force first meets what collides of the links beyond the sensor.
@@ -286,6 +346,11 @@ std::vector<SymptomNumber> robot_alone(SceneSimulator& simulator,
                                        double moment_std, const Vec3& standing_error,
                                        const RobotAloneSettings& settings) {
   return RobotAlone(simulator, model, force_std, moment_std, standing_error, settings).run();
+}
+
+Vec3 push_shift(SceneSimulator& simulator, const std::vector<plant::Effect>& model,
+                double force_std, const RobotAloneSettings& settings) {
+  return RobotAlone(simulator, model, force_std, 0.0, Vec3::Zero(), settings).shift();
 }
 
 }  // namespace pedicel::discrepancy

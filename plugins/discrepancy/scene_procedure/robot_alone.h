@@ -19,4 +19,10 @@ std::vector<SymptomNumber> robot_alone(SceneSimulator& simulator,
                                        double moment_std, const Vec3& standing_error,
                                        const RobotAloneSettings& settings);
 
+/// m, W: where the tool pushes most by the measured wrenches, less where it does by a model's, mean
+/// of the trials in which both push; 0 where none does. A model whose plant stands elsewhere along
+/// the tool feels the same force, but not at the same place of the tool.
+Vec3 push_shift(SceneSimulator& simulator, const std::vector<plant::Effect>& model,
+                double force_std, const RobotAloneSettings& settings);
+
 }  // namespace pedicel::discrepancy

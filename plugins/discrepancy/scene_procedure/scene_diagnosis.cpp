@@ -102,6 +102,10 @@ class Procedure {
     how.renew_noise = [&](const std::vector<plant::Effect>& effects) {
       widen_noise(simulator, data, {effects}, predictions_of(fine_, {effects}));
     };
+    how.push_shift = [&](const std::vector<plant::Effect>& effects) {
+      return push_shift(simulator, effects, data_.deviation(SceneChannel::force),
+                        options_.settings.robot);
+    };
     out_.findings = search_scene(evaluator, how);
     // The simulator goes with this function, and its count with it.
     more_ += simulator.simulations();
@@ -152,6 +156,23 @@ class Procedure {
   void doubt(SceneFitResult& fit) {
     if (stopped() || late()) return;
     widen_errors(fit, doubts(fit.model.effects));
+    doubt_place(fit);
+  }
+
+  // Of a plant that nothing shows both the fit and the wrench say where along the tool it is
+  // pushed. What they differ by, neither knows: the valley is rough, and its floor hardly falls.
+  void doubt_place(SceneFitResult& fit) {
+    std::optional<Vec3> shift;
+    for (int p = 0; p < fit.model.size() && p < fit.standard_error.size(); ++p) {
+      const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
+      if (!told_of_baseline(fit.model.effects[static_cast<std::size_t>(free.effect)], free))
+        continue;
+      if (!shift)
+        shift = push_shift(fine_, fit.model.effects, data_.deviation(SceneChannel::force),
+                           options_.settings.robot);
+      fit.standard_error[p] =
+          std::hypot(fit.standard_error[p], (*shift)[free.component] / free.scale);
+    }
   }
 
   // What predictions of a model may be off by, over the fitted trials in units of the noise: what a

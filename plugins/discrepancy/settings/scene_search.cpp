@@ -131,6 +131,10 @@ void add_scene_fit(SceneFitSettings& f, std::vector<DiagnosisSetting>& all) {
             {budget, "it is changed after the first look", "First derivatives are less linear."});
   rows.step("least_step", f.least_step, "The smallest difference.",
             {derived, "above the solver's tolerance", "Precise numbers have coarser derivatives."});
+  rows.step("least_place_step", f.least_place_step,
+            "The smallest difference of an unseen plant's place: of a unit step, 2 mm.",
+            {measured, "a stem that sticks to the tool changes as much by a micrometre",
+             "Where such a plant stands is told more surely than it is known."});
   rows.step("most_step", f.most_step, "The largest difference.",
             {derived, "a third of a unit step still bends little",
              "Numbers that show little have less linear derivatives."});

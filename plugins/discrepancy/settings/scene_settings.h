@@ -46,6 +46,7 @@ struct SceneFitSettings {
   double wanted_change = 30.0;      ///< noise units in all
   double first_step = 0.02;         ///< of an unknown
   double least_step = 1.0e-4;       ///< of an unknown
+  double least_place_step = 1.0;    ///< of a unit step, of an unseen plant's place
   double most_step = 0.3;           ///< of an unknown
   double screen_factor_step = 0.1;  ///< of a logarithm
   double screen_step = 1.0;         ///< of a unit step
