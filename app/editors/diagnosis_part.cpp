@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pedicel/app/session/measured/diagnosis_job.h"
+#include "pedicel/app/session/measured/measured_data.h"
 #include "pedicel/app/session/measured/measured_scene.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/app/ui/theme.h"
@@ -61,9 +62,10 @@ void DiagnosisPart::draw_progress(Ui& ui) {
   std::string time = seconds_text(now.seconds) + " so far";
   if (now.left) time += ", about " + seconds_text(*now.left) + " left";
   note(time);
-  ImGui::BeginDisabled(ui.session.measured().is_cancelling());
-  if (wide_button(ui.session.measured().is_cancelling() ? "Cancelling ..." : "Cancel"))
-    ui.run(Command("cancel diagnosis", {}));
+  const bool ends =
+      ui.session.measured().data().is_cancelling() || ui.session.measured().scene().is_cancelling();
+  ImGui::BeginDisabled(ends);
+  if (wide_button(ends ? "Cancelling ..." : "Cancel")) ui.run(Command("cancel diagnosis", {}));
   ImGui::EndDisabled();
   if (!now.found.empty()) note(now.found.back());
 }
@@ -139,8 +141,7 @@ void DiagnosisPart::draw_buttons(Ui& ui) {
     ImGui::EndDisabled();
   }
   if (wide_button("Write report")) {
-    const std::string folder =
-        "diagnosis_" + ui.session.measured().folder().filename().string();
+    const std::string folder = "diagnosis_" + ui.session.measured().folder().filename().string();
     if (ui.run(Command("write report", {{"folder", folder}}))) ui.say("written to " + folder);
   }
 }

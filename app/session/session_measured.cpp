@@ -112,15 +112,6 @@ bool SessionMeasured::is_diagnosing() const {
   return data_->is_diagnosing() || scene_->is_diagnosing();
 }
 
-bool SessionMeasured::is_cancelling() const {
-  return data_->is_cancelling() || scene_->is_cancelling();
-}
-
-void SessionMeasured::cancel_diagnosis() {
-  data_->cancel_diagnosis();
-  scene_->cancel_diagnosis();
-}
-
 DiagnosisProgress SessionMeasured::progress() const {
   return scene_->is_diagnosing() ? scene_->progress() : data_->progress();
 }

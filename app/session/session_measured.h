@@ -26,8 +26,9 @@ class SessionMeasured {
 
   /// Opens an experiment folder. Where no plant of the document has its curves, the document
   /// becomes its nominal plant alone, or its scene, without a file, so that saving leaves the
-  /// experiment as it is; refused where that would lose changes. Read on a thread of its own: update() takes it
-  /// over, and its faults become messages. Where commands wait, it is open on return.
+  /// experiment as it is; refused where that would lose changes. Read on a thread of its own:
+  /// update() takes it over, and its faults become messages. Where commands wait, it is open on
+  /// return.
   Result open(const std::filesystem::path& path);
   /// The experiment that is being read; null: none is.
   const ExperimentReading* reading() const { return reading_.get(); }
@@ -55,8 +56,6 @@ class SessionMeasured {
   bool has_scene() const;
 
   bool is_diagnosing() const;
-  bool is_cancelling() const;
-  void cancel_diagnosis();
   DiagnosisProgress progress() const;
   /// Grows with every diagnosis that came to an end; 0: none did.
   int diagnoses() const { return diagnoses_; }

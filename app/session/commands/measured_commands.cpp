@@ -5,6 +5,7 @@
 #include "pedicel/app/session/commands/command_table.h"
 #include "pedicel/app/session/document/document.h"
 #include "pedicel/app/session/measured/measured_data.h"
+#include "pedicel/app/session/measured/measured_scene.h"
 #include "pedicel/app/session/session.h"
 #include "pedicel/app/session/session_measured.h"
 #include "pedicel/core/check.h"
@@ -58,7 +59,8 @@ Result begin_diagnosis(Session& session, const Command& c) {
 }
 
 Result cancel_diagnosis(Session& session, const Command&) {
-  session.measured().cancel_diagnosis();
+  session.measured().data().cancel_diagnosis();
+  session.measured().scene().cancel_diagnosis();
   return {};
 }
 
@@ -128,8 +130,7 @@ std::vector<CommandDescription> measured_commands() {
        set_effects},
       {"set scene effects",
        Scope::document,
-       {{"text", Kind::text, true,
-         "as in a scene file: [{name: contact_friction, coefficient: 0.3}]"}},
+       {{"text", Kind::text, true, "as in a scene file: [{name: NAME, ...}]"}},
        "Gives the scene these effects of contact, arm, sensors and plants in place of its own.",
        set_scene_effects},
       {"open experiment",

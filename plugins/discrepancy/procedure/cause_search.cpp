@@ -14,8 +14,8 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-// At most so many rivals of a cause are fitted in its place: each takes a fit.
-constexpr std::size_t most_rivals = 2;
+// At most so many competitors of a cause are fitted in its place: each takes a fit.
+constexpr std::size_t most_competitors = 2;
 
 // The effects of `both` that stand behind those of `first`, from their numbers there.
 Hypothesis behind_first(const Hypothesis& first, const Hypothesis& both) {
@@ -164,7 +164,7 @@ void CauseSearch::add_causes() {
     // families: a cause stands in for one of its own family most easily.
     if (eliminates_first(first)) continue;
     if (!is_of_another_kind(first)) return;
-    remember_rivals_of_next(next);
+    remember_competitors(next);
     state_.findings.chain.push_back(first);
     state_.result.best = first.fit;
   }
@@ -173,10 +173,10 @@ void CauseSearch::add_causes() {
 }
 
 // Those that came as near beside the chain as the one that is added to it.
-void CauseSearch::remember_rivals_of_next(const std::vector<Candidate>& next) {
+void CauseSearch::remember_competitors(const std::vector<Candidate>& next) {
   const Candidate& added = next.front();
   const double margin = margin_over(added, state_.settings());
-  for (std::size_t i = 1; i < next.size() && i <= most_rivals; ++i) {
+  for (std::size_t i = 1; i < next.size() && i <= most_competitors; ++i) {
     const double behind = added.evidence - next[i].evidence;
     // Sorted: whole fits first, by evidence.
     if (!next[i].whole) break;
@@ -194,38 +194,40 @@ void CauseSearch::substitute_first() {
   if (chain.size() < 2 || state_.stopped()) return;
   const Candidate& first = chain.front();
   const double margin = margin_over(first, state_.settings());
-  // Alone it had to stand in for the others as well, and so had its rivals: they count from farther
-  // behind.
+  // Alone it had to stand in for the others as well, and so had its competitors: they count from
+  // farther behind.
   const double reach = state_.settings().evidence.most_margins * margin;
   const FitSummary best = state_.result.best;
   const double dispersion = std::max(1.0, 2.0 * best.cost / state_.setup->samples());
   const double own = cost_of_numbers(best, dispersion) - state_.held_out_by(best).gain;
   const Hypothesis others = behind_first(first.fit.hypothesis, best.hypothesis);
   std::size_t tried = 0;
-  for (const Candidate& rival : state_.result.ranking) {
-    if (rival.cause == first.cause) continue;
-    if (!rival.whole || first.evidence - rival.evidence > reach || tried == most_rivals) break;
+  for (const Candidate& competitor : state_.result.ranking) {
+    if (competitor.cause == first.cause) continue;
+    if (!competitor.whole || first.evidence - competitor.evidence > reach ||
+        tried == most_competitors)
+      break;
     const bool found = std::ranges::any_of(
-        chain, [&](const Candidate& named) { return named.cause == rival.cause; });
+        chain, [&](const Candidate& named) { return named.cause == competitor.cause; });
     if (found || state_.stopped()) continue;
     ++tried;
-    Hypothesis instead = rival.fit.hypothesis;
+    Hypothesis instead = competitor.fit.hypothesis;
     instead.add(others);
     Evaluator evaluator = state_.setup->evaluator();
-    Candidate candidate = rival;
+    Candidate candidate = competitor;
     candidate.fit = fit(evaluator, instead, state_.fit_options());
     const double numbers =
         cost_of_numbers(candidate.fit, dispersion) - state_.held_out_by(candidate.fit).gain;
     const double behind = (candidate.fit.cost - best.cost) / dispersion + numbers - own;
-    state_.log.note(rival.cause + " in place of " + first.cause +
-                    text(" beside the others loses by %.4g nats, of %.4g that it must.", behind,
-                         margin));
+    state_.log.note(
+        competitor.cause + " in place of " + first.cause +
+        text(" beside the others loses by %.4g nats, of %.4g that it must.", behind, margin));
     state_.findings.substitutes.push_back({0, std::move(candidate), behind});
   }
   put_best_first();
 }
 
-// Where a rival does better beside the others than the first cause does, it takes its place.
+// Where a competitor does better beside the others than the first cause does, it takes its place.
 void CauseSearch::put_best_first() {
   std::vector<Candidate>& chain = state_.findings.chain;
   std::vector<Findings::Substitute>& all = state_.findings.substitutes;
@@ -235,8 +237,8 @@ void CauseSearch::put_best_first() {
   });
   if (best == all.end() || !of_first(*best) || best->behind >= 0.0) return;
   const double ahead = -best->behind;
-  const auto alone = std::ranges::find(state_.result.ranking, best->candidate.cause,
-                                       &Candidate::cause);
+  const auto alone =
+      std::ranges::find(state_.result.ranking, best->candidate.cause, &Candidate::cause);
   for (Findings::Substitute& one : all)
     if (of_first(one)) one.behind += ahead;
   Candidate displaced = chain.front();

@@ -31,7 +31,7 @@ class CauseSearch {
   bool is_worth_more(const Candidate& next) const;
   bool is_of_another_kind(const Candidate& next) const;
   bool eliminates_first(const Candidate& next);
-  void remember_rivals_of_next(const std::vector<Candidate>& next);
+  void remember_competitors(const std::vector<Candidate>& next);
   void substitute_first();
   void put_best_first();
 

@@ -66,6 +66,58 @@ double stated_of(const SceneExperiment& experiment, const plant::MaterialKey& nu
   return most;
 }
 
+// Of several starts of a cause, and of several joints, cameras or sensors, the best stands for
+// it.
+std::vector<ScreenedCause> best_of_each(const std::vector<ScreenedCause>& screened) {
+  std::map<std::string, int> seen;
+  std::vector<ScreenedCause> kept;
+  for (const ScreenedCause& one : screened)
+    // They are in order, so the first is the best.
+    if (seen[one.name]++ == 0) kept.push_back(one);
+  return kept;
+}
+
+// The best start of each cause, then the next best of each.
+std::vector<ScreenedCause> in_turns(const std::vector<ScreenedCause>& screened) {
+  std::map<std::string, int> seen;
+  std::multimap<int, ScreenedCause> turns;
+  // A cause with many joints and starts would else take all the places, and others would never be
+  // simulated.
+  for (const ScreenedCause& one : screened) turns.emplace(seen[one.name]++, one);
+  std::vector<ScreenedCause> sorted;
+  for (auto& [turn, one] : turns) sorted.push_back(std::move(one));
+  return sorted;
+}
+
+// Whether the data are where one model puts them, on the way to what another one foretells.
+// By how much worse the other is does not say so, since two solvers differ by more. But were the
+// other right, what solvers differ by would have to look just as the two models differ.
+bool speaks_for(const SceneFitResult& one, const SceneFitResult& other,
+                const SceneSearchSettings& how) {
+  const Between data = between(one, other);
+  return std::abs(data.at) < how.named_deviations * data.error &&
+         1.0 - data.at > how.named_deviations * data.error;
+}
+
+// Numbers beside the causes that left what is known of them.
+std::vector<std::string> material_of(const SceneFitResult& fit, const SceneExperiment& experiment,
+                                     const SceneSearchSettings& how) {
+  std::vector<std::string> names;
+  // A number of the plant that goes far in a fit that explains the data is a finding beside the
+  // cause, and not its price.
+  for (const effects::EffectDefinition* one : effects::material_factors()) {
+    const int p = fit.model.factor_on(one->name);
+    if (p < 0) continue;
+    const double off = std::log(fit.model.value(p));
+    const double error = std::hypot(fit.standard_error[p], allowance(*one->material, how),
+                                    stated_of(experiment, *one->material));
+    // In logarithms: a factor of two and one of a half are equally far off.
+    if (std::abs(off) > how.named_deviations * error) names.push_back(one->name);
+  }
+  for (const std::string& name : moved(fit, how)) names.push_back(name);
+  return names;
+}
+
 class Search {
  public:
   Search(SceneEvaluator& evaluator, const SceneSearchOptions& options)
@@ -341,29 +393,6 @@ class Search {
            how_.number_price * one.fit.model.size() * (1.0 + square(one.excess));
   }
 
-  // Of several starts of a cause, and of several joints, cameras or sensors, the best stands for
-  // it.
-  static std::vector<ScreenedCause> best_of_each(const std::vector<ScreenedCause>& screened) {
-    std::map<std::string, int> seen;
-    std::vector<ScreenedCause> kept;
-    for (const ScreenedCause& one : screened)
-      // They are in order, so the first is the best.
-      if (seen[one.name]++ == 0) kept.push_back(one);
-    return kept;
-  }
-
-  // The best start of each cause, then the next best of each.
-  static std::vector<ScreenedCause> in_turns(const std::vector<ScreenedCause>& screened) {
-    std::map<std::string, int> seen;
-    std::multimap<int, ScreenedCause> turns;
-    // A cause with many joints and starts would else take all the places, and others would never be
-    // simulated.
-    for (const ScreenedCause& one : screened) turns.emplace(seen[one.name]++, one);
-    std::vector<ScreenedCause> sorted;
-    for (auto& [turn, one] : turns) sorted.push_back(std::move(one));
-    return sorted;
-  }
-
   // Linear costs are too good: whoever keeps more of one, at the whole step or a shorter one, goes
   // first, and from there. Which joint it is, or from where a cause is best begun, they do not say:
   // that of the right one may be worse.
@@ -445,19 +474,19 @@ class Search {
       found_.outcome = Outcome::named;
       find_competing();
       if (!found_.competing.empty()) found_.outcome = Outcome::ambiguous;
-      found_.material = material_of(found_.candidates.front().fit);
+      found_.material = material_of(found_.candidates.front().fit, experiment_, how_);
       // Against the floor alone, and not against a share of the misfit: the baseline is what all
       // shares are taken of. Held-out trials may object, as something may act in one of them alone.
     } else if (found_.baseline_excess <= how_.floor &&
                holds_elsewhere(found_.baseline_check, found_.nominal_check, how_)) {
       found_.outcome = Outcome::adequate;
-      found_.material = material_of(found_.baseline);
+      found_.material = material_of(found_.baseline, experiment_, how_);
     } else {
       found_.outcome = Outcome::unknown;
       // Last, since a force at a place of its own, with a course of its own, explains much that is
       // something else.
       if (!stopped()) look_outside();
-      found_.material = material_of(found_.baseline);
+      found_.material = material_of(found_.baseline, experiment_, how_);
     }
   }
 
@@ -473,7 +502,7 @@ class Search {
     // Things and not numbers: a gain that explains all by itself stood beside a bias together with
     // another modulus and density.
     const auto things = [this](const SceneCandidate& one) {
-      return one.names.size() + material_of(one.fit).size();
+      return one.names.size() + material_of(one.fit, experiment_, how_).size();
     };
     std::vector<std::size_t> near = {0};
     for (std::size_t i = 1; i < found_.candidates.size(); ++i) {
@@ -491,7 +520,7 @@ class Search {
     std::erase_if(near, [&](std::size_t i) { return things(found_.candidates[i]) > fewest; });
     std::erase_if(near, [&, all = near](std::size_t i) {
       return std::ranges::any_of(all, [&](std::size_t other) {
-        return speaks_for(found_.candidates[other].fit, found_.candidates[i].fit);
+        return speaks_for(found_.candidates[other].fit, found_.candidates[i].fit, how_);
       });
     });
     // They are in the order of their scores, so this is the best of the plainest.
@@ -499,33 +528,6 @@ class Search {
     for (std::size_t i = 1; i < near.size(); ++i) found_.competing.push_back(near[i]);
     std::rotate(found_.candidates.begin(), found_.candidates.begin() + static_cast<long>(first),
                 found_.candidates.begin() + static_cast<long>(first) + 1);
-  }
-
-  // Whether the data are where one model puts them, on the way to what another one foretells.
-  // By how much worse the other is does not say so, since two solvers differ by more. But were the
-  // other right, what solvers differ by would have to look just as the two models differ.
-  bool speaks_for(const SceneFitResult& one, const SceneFitResult& other) const {
-    const Between data = between(one, other);
-    return std::abs(data.at) < how_.named_deviations * data.error &&
-           1.0 - data.at > how_.named_deviations * data.error;
-  }
-
-  // Numbers beside the causes that left what is known of them.
-  std::vector<std::string> material_of(const SceneFitResult& fit) const {
-    std::vector<std::string> names;
-    // A number of the plant that goes far in a fit that explains the data is a finding beside the
-    // cause, and not its price.
-    for (const effects::EffectDefinition* one : effects::material_factors()) {
-      const int p = fit.model.factor_on(one->name);
-      if (p < 0) continue;
-      const double off = std::log(fit.model.value(p));
-      const double error = std::hypot(fit.standard_error[p], allowance(*one->material, how_),
-                                      stated_of(experiment_, *one->material));
-      // In logarithms: a factor of two and one of a half are equally far off.
-      if (std::abs(off) > how_.named_deviations * error) names.push_back(one->name);
-    }
-    for (const std::string& name : moved(fit, how_)) names.push_back(name);
-    return names;
   }
 
   // What is outside acts in some trials, and in some of their time: the baseline is that of the
