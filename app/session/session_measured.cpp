@@ -13,8 +13,7 @@
 #include "pedicel/app/session/session_files.h"
 #include "pedicel/core/check.h"
 #include "pedicel/discrepancy/report/report.h"
-#include "pedicel/discrepancy/report/scene_report.h"
-#include "pedicel/discrepancy/scene_procedure/extended_scene.h"
+#include "pedicel/discrepancy/report/scene_diagnosis_files.h"
 #include "pedicel/io/atomic_file.h"
 
 namespace pedicel::app {
@@ -75,18 +74,6 @@ void write_diagnosis_files(const std::filesystem::path& folder,
   }
   io::write_file_atomically(folder / "verdict.json", to_json(diagnosis.verdict) + "\n");
   discrepancy::write_report(folder, experiment, diagnosis);
-}
-
-void write_diagnosis_files(const std::filesystem::path& folder,
-                           const discrepancy::SceneExperiment& experiment,
-                           discrepancy::SceneDiagnosis diagnosis) {
-  if (diagnosis.findings.explained() && !diagnosis.model.empty()) {
-    const int trial = diagnosis.fit_trials.empty() ? -1 : diagnosis.fit_trials.front();
-    diagnosis.verdict.extended_scene =
-        discrepancy::write_extended_scene(folder, experiment, diagnosis.model, trial).file;
-  }
-  io::write_file_atomically(folder / "verdict.json", to_json(diagnosis.verdict) + "\n");
-  discrepancy::write_scene_report(folder, experiment, diagnosis);
 }
 
 }  // namespace
@@ -217,8 +204,8 @@ SessionMeasured::Acceptance SessionMeasured::acceptance() const {
     if (found.empty() || !has_scene()) return impossible;
     // Read as the command reads them, so that both are written alike.
     Diagnostics none;
-    const std::string wanted = scene_effects_text(parse_scene_effects(
-        scene_effects_text(scene_->experiment()->scene.effects, found), none));
+    const std::string wanted = scene_effects_text(
+        parse_scene_effects(scene_effects_text(scene_->experiment()->scene.effects, found), none));
     return scene_effects_text(document.scene->effects) == wanted ? accepted : possible;
   }
   const auto extended = data_->extended_plant();
@@ -239,9 +226,9 @@ Result SessionMeasured::accept_scene() {
     return {false,
             "the scene that was measured is not in the document (any more), expected its robot and "
             "its plants as they were measured"};
-  return session_.run(Command(
-      "set scene effects",
-      {{"text", scene_effects_text(scene_->experiment()->scene.effects, found)}}));
+  return session_.run(
+      Command("set scene effects",
+              {{"text", scene_effects_text(scene_->experiment()->scene.effects, found)}}));
 }
 
 Result SessionMeasured::accept_diagnosis() {
@@ -297,7 +284,9 @@ Result SessionMeasured::diagnose(int threads, std::uint64_t seed) {
 
 Result SessionMeasured::write_report(const std::filesystem::path& folder) const {
   if (scene_->diagnosis()) {
-    write_diagnosis_files(folder, *scene_->experiment(), *scene_->diagnosis());
+    discrepancy::SceneDiagnosis found = *scene_->diagnosis();
+    std::filesystem::create_directories(folder);
+    discrepancy::write_scene_diagnosis(folder, *scene_->experiment(), found);
     return {};
   }
   if (!data_->diagnosis()) return {false, "there is no diagnosis to write, expected one"};

@@ -7,13 +7,12 @@
 #include "pedicel/app/verbs/lab.h"
 #include "pedicel/core/check.h"
 #include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/report/scene_next_report.h"
+#include "pedicel/discrepancy/report/scene_diagnosis_files.h"
 #include "pedicel/discrepancy/report/scene_report.h"
 #include "pedicel/discrepancy/scene/more_scene_trials.h"
 #include "pedicel/discrepancy/scene/scene_data.h"
 #include "pedicel/discrepancy/scene/scene_effects.h"
 #include "pedicel/discrepancy/scene/scene_observe.h"
-#include "pedicel/discrepancy/scene_procedure/extended_scene.h"
 #include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
 #include "pedicel/io/atomic_file.h"
 #include "pedicel/io/output_check.h"
@@ -107,38 +106,6 @@ int observe_scene_verb(const ObserveArguments& a) {
 
 namespace {
 
-void write_scene_diagnosis(const std::filesystem::path& folder, const SceneExperiment& experiment,
-                           discrepancy::SceneDiagnosis& diagnosis) {
-  using discrepancy::Outcome;
-  discrepancy::Verdict& verdict = diagnosis.verdict;
-  const bool is_found = verdict.outcome == Outcome::adequate || verdict.outcome == Outcome::named ||
-                        verdict.outcome == Outcome::ambiguous;
-  if (is_found && !diagnosis.model.empty()) {
-    const int trial = diagnosis.fit_trials.empty() ? -1 : diagnosis.fit_trials.front();
-    const discrepancy::ExtendedScene extended =
-        discrepancy::write_extended_scene(folder, experiment, diagnosis.model, trial);
-    verdict.extended_scene = extended.file;
-    if (std::filesystem::exists(folder / "extended.plant.yaml"))
-      verdict.extended_plant = "extended.plant.yaml";
-    for (const std::string& left : extended.left)
-      diagnosis.text += "  extended.scene.yaml is without " + left + "\n";
-  }
-  try {
-    verdict.next = discrepancy::write_scene_next(folder, diagnosis.next);
-  } catch (const UsageError& fault) {
-    // The verdict stands without it.
-    std::filesystem::remove_all(folder / "next");
-    diagnosis.text += std::string("  no next/: ") + fault.what() + "\n";
-  }
-  io::write_file_atomically(folder / "findings.txt", diagnosis.text);
-  io::write_file_atomically(folder / "verdict.json", to_json(verdict) + "\n");
-  discrepancy::write_scene_report(folder, experiment, diagnosis);
-}
-
-}  // namespace
-
-namespace {
-
 std::filesystem::path folder_of(const ExperimentArguments& a, const std::string& prefix,
                                 const SceneExperiment& experiment) {
   if (!a.out.empty()) return a.out;
@@ -177,7 +144,7 @@ int diagnose_scene_verb(const ExperimentArguments& a, const std::vector<std::str
   progress.end(stop_requested);
   throw_if_stopped();
   a.write(folder, [&](const std::filesystem::path& in) {
-    write_scene_diagnosis(in, experiment, diagnosis);
+    discrepancy::write_scene_diagnosis(in, experiment, diagnosis);
   });
   if (a.json)
     std::printf("%s\n", to_json(diagnosis.verdict).c_str());
@@ -205,7 +172,7 @@ class SceneLab {
       if (stopped_) break;  // the rounds before stay
       const std::string name = "round_" + std::to_string(round);
       std::filesystem::create_directories(in / name);
-      write_scene_diagnosis(in / name, experiment_, found);
+      discrepancy::write_scene_diagnosis(in / name, experiment_, found);
       last_ = found.verdict;
       told_.push_back(lab_round(round, experiment_.trials.size(), last_));
       if (!a_.json) std::printf("%s: %s\n", name.c_str(), headline(last_).c_str());
