@@ -280,7 +280,6 @@ class SceneRun {
 
   void place_links(double t) {
     Eigen::VectorXd q = arm_at(member_, t).q;
-    if (!member_.is_run) q += member_.path->without_reversals(t + member_.state->robot_delay);
     joints_.begin_step(q);
     arm_.compliance = joints_.compliance();
     member_.arm->model().link_poses(q + joints_.deflection(), arm_.links);

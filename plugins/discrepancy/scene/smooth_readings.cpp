@@ -14,7 +14,6 @@ constexpr double window = 0.08;  // s, to either side, in which the jerk is alik
 /// Powers of ten, 1/s5: from what wanders in a second to nearly interpolation.
 constexpr double least_log_jerk = -1.0, most_log_jerk = 14.0;
 constexpr double clearly = 1.0;  // nats
-constexpr double surely = 2.0;   // deviations of the spline, by which a joint has turned back
 /// x, x', x''.
 struct Filtered {
   Vec3 ahead, mean;           // before and after the reading
@@ -147,7 +146,6 @@ JointPath smooth_readings(const Samples& readings, double deviation) {
   path.q_.setZero(rows, columns);
   path.qd_.setZero(rows, columns);
   path.qdd_.setZero(rows, columns);
-  path.less_.setZero(rows, columns);
   path.scatter_.setZero(columns);
   for (long c = 0; c < columns && rows > 0; ++c) {
     const Eigen::VectorXd y = readings.value.col(c);
@@ -155,8 +153,6 @@ JointPath smooth_readings(const Samples& readings, double deviation) {
     const std::vector<Filtered> pass =
         filter(path.time_, y, noise, choose_jerk(path.time_, y, noise)).rows;
     Vec3 m = pass.back().mean;
-    Mat3 spread = pass.back().spread;
-    Eigen::VectorXd known(rows);  // rad, how well
     double square = 0.0;
     int count = 0;
     for (long i = rows - 1; i >= 0; --i) {
@@ -165,9 +161,7 @@ JointPath smooth_readings(const Samples& readings, double deviation) {
         const Mat3 f = transition(path.time_[s + 1] - path.time_[s]);
         const Mat3 gain = pass[s + 1].ahead_spread.ldlt().solve(f * pass[s].spread).transpose();
         m = pass[s].mean + gain * (m - pass[s + 1].ahead);
-        spread = pass[s].spread + gain * (spread - pass[s + 1].ahead_spread) * gain.transpose();
       }
-      known[i] = std::sqrt(std::max(0.0, spread(0, 0)));
       path.q_(i, c) = m[0];
       path.qd_(i, c) = m[1];
       path.qdd_(i, c) = m[2];
@@ -177,22 +171,8 @@ JointPath smooth_readings(const Samples& readings, double deviation) {
       }
     }
     path.scatter_[c] = count > 0 ? std::sqrt(square / count) : 0.0;
-    // Play: it follows where the spline has left it behind by more than noise would.
-    double follows = path.q_(0, c);
-    for (long i = 0; i < rows; ++i) {
-      const double play = surely * known[i];
-      follows = std::clamp(follows, path.q_(i, c) - play, path.q_(i, c) + play);
-      path.less_(i, c) = follows - path.q_(i, c);
-    }
   }
   return path;
-}
-
-Eigen::VectorXd JointPath::without_reversals(double t) const {
-  if (less_.rows() == 0) return Eigen::VectorXd::Zero(q_.cols());
-  const Local at = find(t);
-  if (at.h == 0.0) return less_.row(at.row).transpose();
-  return ((1.0 - at.u) * less_.row(at.row) + at.u * less_.row(at.row + 1)).transpose();
 }
 
 JointPath JointPath::spread(const std::vector<int>& columns, const Eigen::VectorXd& start) const {
@@ -202,14 +182,12 @@ JointPath JointPath::spread(const std::vector<int>& columns, const Eigen::Vector
   all.q_.rowwise() = start.transpose();
   all.qd_.setZero(q_.rows(), start.size());
   all.qdd_ = all.qd_;
-  all.less_ = all.qd_;
   all.scatter_.setZero(start.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const auto c = static_cast<long>(i);
     all.q_.col(columns[i]) = q_.col(c);
     all.qd_.col(columns[i]) = qd_.col(c);
     all.qdd_.col(columns[i]) = qdd_.col(c);
-    if (less_.rows() > 0) all.less_.col(columns[i]) = less_.col(c);
     all.scatter_[columns[i]] = scatter_[c];
   }
   return all;

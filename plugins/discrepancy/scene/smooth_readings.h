@@ -18,10 +18,6 @@ class JointPath {
   double end() const { return time_.empty() ? 0.0 : time_.back(); }  ///< s
   Point at(double t) const;
   void sample(double t, Eigen::VectorXd& q) const;  ///< positions alone
-  /// rad, to be added to positions: then no joint turns back by less than its readings can tell.
-  /// A finger that stops while it slides would else be moved on by a micrometre of noise, and its
-  /// friction would turn about.
-  Eigen::VectorXd without_reversals(double t) const;
   /// The same of a robot whose other joints stand at `start`: column i is joint `columns[i]` of it.
   JointPath spread(const std::vector<int>& columns, const Eigen::VectorXd& start) const;
   /// Through rows as they are; accelerations are differences of their velocities.
@@ -42,7 +38,6 @@ class JointPath {
 
   std::vector<double> time_;      // s
   Eigen::MatrixXd q_, qd_, qdd_;  // rows x dofs
-  Eigen::MatrixXd less_;          // rad, rows x dofs: without_reversals(); empty: none
   Eigen::VectorXd scatter_;
 };
 

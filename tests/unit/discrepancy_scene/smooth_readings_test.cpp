@@ -64,22 +64,6 @@ TEST(SmoothReadings, DerivativesBelongToThePositions) {
   }
 }
 
-// A finger that has stopped while it slid must not be moved on by noise: its friction would turn
-// about.
-TEST(SmoothReadings, AJointThatStopsDoesNotTurnBack) {
-  const JointPath path = smooth_readings(readings(noise), noise);
-  double back = 0.0, spline_back = 0.0, farthest = 0.0, spline = 0.0, apart = 0.0;
-  for (double t = 0.35; t < 2.0; t += 0.001) {
-    const double q = path.at(t).q[0], less = path.without_reversals(t)[0];
-    farthest = std::max(farthest, q + less), spline = std::max(spline, q);
-    back = std::max(back, farthest - q - less), spline_back = std::max(spline_back, spline - q);
-    apart = std::max(apart, std::abs(less));
-  }
-  EXPECT_GT(spline_back, 0.1 * noise);
-  EXPECT_LT(back, 0.1 * spline_back);
-  EXPECT_LT(apart, 2.0 * noise);
-}
-
 TEST(SmoothReadings, GapsAreBridgedAndEndsStandStill) {
   Samples samples = readings(noise);
   for (int i = 200; i < 215; ++i) samples.value(i, 0) = std::nan("");
