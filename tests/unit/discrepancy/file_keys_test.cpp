@@ -50,6 +50,7 @@ Verdict with_everything() {
   cause.parameters["offset"] = {{1.0, 0.9, 1.1, "m"}};
   cause.change = {0.1, 0.2, 0.3, 0.4};
   cause.against = "It has another shape.";
+  cause.instead_of = "latency";
   verdict.nearest = {cause};
   verdict.parameters["density"] = {700, 690, 710, "kg/m3"};
   verdict.competing = {{"gust", 3.0}};
