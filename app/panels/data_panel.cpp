@@ -140,8 +140,7 @@ class DataPanel : public Panel {
     bool asked = text_field("##path", path_, "experiment folder");
     ImGui::SameLine();
     asked |= ImGui::Button("Open");
-    if (asked && !path_.empty() &&
-        (path_ != opened_ || ui.session.measured().folder().empty())) {
+    if (asked && !path_.empty() && (path_ != opened_ || ui.session.measured().folder().empty())) {
       const Result result = ui.session.run(Command("open experiment", {{"folder", path_}}));
       opened_ = result.ok ? path_ : "";
     }
@@ -170,8 +169,7 @@ class DataPanel : public Panel {
   void title(Ui& ui, const OpenExperiment& open) {
     heading(ui, "Trial");
     if (!open.title.empty()) note(open.title);
-    if (open.simulated > 0)
-      note("simulating: " + std::to_string(open.simulated) + " trials to go");
+    if (open.simulated > 0) note("simulating: " + std::to_string(open.simulated) + " trials to go");
     if (!open.stands)
       note(open.of_scene ? "The document's plants are not as they were measured (any more)."
                          : "The document's plant is not as it was measured (any more).");

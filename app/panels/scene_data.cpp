@@ -88,8 +88,7 @@ void SceneData::instruments(Ui& ui, const std::vector<SceneInstrument>& list) {
     ImGui::TableNextColumn();
     ImGui::PushID(i);
     if (ImGui::Selectable(elide(one.name + ", " + one.unit, rest_width()).c_str(),
-                          view.instrument == i,
-                          ImGuiSelectableFlags_SpanAllColumns)) {
+                          view.instrument == i, ImGuiSelectableFlags_SpanAllColumns)) {
       view.instrument = i, view.column = 0;
       plot_.follows = true;
     }
@@ -97,9 +96,9 @@ void SceneData::instruments(Ui& ui, const std::vector<SceneInstrument>& list) {
     for (const int m : columns) {
       ImGui::TableNextColumn();
       const std::vector<double>& rms = scene.path(static_cast<Model>(m), view.trial)->rms;
-      elided(i < static_cast<int>(rms.size()) ? measured_text(rms[static_cast<std::size_t>(i)])
-                                              : "-",
-             rest_width());
+      elided(
+          i < static_cast<int>(rms.size()) ? measured_text(rms[static_cast<std::size_t>(i)]) : "-",
+          rest_width());
     }
   }
   ImGui::EndTable();
@@ -144,7 +143,8 @@ void SceneData::shown(Ui& ui) {
   tip("The robot as its joints were measured, plants as the model has them");
   ImGui::Checkbox("Errors as arrows", &view.errors);
   ImGui::BeginDisabled(!view.errors);
-  slider(ui, "Lengthened", view.error_scale, 1.0, 100.0, "%.0f times", ImGuiSliderFlags_Logarithmic);
+  slider(ui, "Lengthened", view.error_scale, 1.0, 100.0, "%.0f times",
+         ImGuiSliderFlags_Logarithmic);
   ImGui::EndDisabled();
   if (experiment.cameras.empty()) return;
   note("Through a camera: rings where it saw the markers, crosses where the model has them.");

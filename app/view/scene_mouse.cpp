@@ -92,7 +92,8 @@ void SceneMouse::move(Ui& ui, ViewCamera& camera, const SceneFrame& frame) {
   if (drag_ == Drag::pan) camera.pan(moved.x, moved.y, frame.height());
   if (drag_ == Drag::dolly) camera.dolly(-0.04 * moved.y, camera.target());
   if (drag_ == Drag::pull) move_pull(ui, frame);
-  if (drag_ == Drag::orbit || drag_ == Drag::pan || drag_ == Drag::dolly) ui.view.camera = ui.view.measured.camera = -1;
+  if (drag_ == Drag::orbit || drag_ == Drag::pan || drag_ == Drag::dolly)
+    ui.view.camera = ui.view.measured.camera = -1;
 }
 
 void SceneMouse::click(Ui& ui, ViewCamera& camera) {

@@ -99,8 +99,8 @@ TEST_P(FoundEffects, ComesOutAsItShould) {
       << run.notes;
 }
 
-// A latency of 2.3 ms beside an anisotropy. A lag of the sensor does as well within 1.5 nats; beside
-// a second cause nobody had asked for it, and the lag was named.
+// A latency of 2.3 ms beside an anisotropy. A lag of the sensor does as well within 1.5 nats;
+// beside a second cause nobody had asked for it, and the lag was named.
 TEST(FoundEffect, WhatTheDataCannotTellBesideWhatIsCertain) {
   const TemporaryFolder folder;
   const CaseOrder& order = case_orders()[49];

@@ -58,11 +58,11 @@ void MeasuredData::simulate(const std::vector<Model>& models,
   runs_.start(number_, static_cast<int>(models.size() * experiment_->trials.size()),
               [experiment = experiment_, models, variants, numerics](
                   const std::atomic<bool>& stop, const PathRuns<TrialPath>::Done& done) {
-                simulate_paths(*experiment, variants, numerics, stop,
-                               [&](int trial, int variant, TrialPath path) {
-                                 done({models[static_cast<std::size_t>(variant)], trial,
-                                       std::move(path)});
-                               });
+                simulate_paths(
+                    *experiment, variants, numerics, stop,
+                    [&](int trial, int variant, TrialPath path) {
+                      done({models[static_cast<std::size_t>(variant)], trial, std::move(path)});
+                    });
               });
 }
 
@@ -85,18 +85,18 @@ int MeasuredData::still_simulated() const {
 void MeasuredData::start_diagnosis(int threads, std::uint64_t seed) {
   if (!experiment_) throw UsageError("no experiment is open, expected one (open experiment PATH)");
   if (diagnosing_) throw UsageError("a diagnosis runs already, expected it to end or be cancelled");
-  diagnosing_ = std::make_unique<Job>(
-      [experiment = experiment_, threads = threads_for_diagnosis(threads), seed](
-          ProgressBoard& board, const std::atomic<bool>& stop) {
-        discrepancy::DiagnosisOptions options;
-        options.threads = threads;
-        options.seed = seed;
-        options.stop = &stop;
-        options.progress = [&](const std::string& doing, double share) { board.tell(doing, share); };
-        options.note = [&](const std::string& sentence) { board.note(sentence); };
-        discrepancy::Diagnosis found = discrepancy::diagnose(*experiment, options);
-        return found.stopped ? std::nullopt : std::optional(std::move(found));
-      });
+  diagnosing_ = std::make_unique<Job>([experiment = experiment_,
+                                       threads = threads_for_diagnosis(threads),
+                                       seed](ProgressBoard& board, const std::atomic<bool>& stop) {
+    discrepancy::DiagnosisOptions options;
+    options.threads = threads;
+    options.seed = seed;
+    options.stop = &stop;
+    options.progress = [&](const std::string& doing, double share) { board.tell(doing, share); };
+    options.note = [&](const std::string& sentence) { board.note(sentence); };
+    discrepancy::Diagnosis found = discrepancy::diagnose(*experiment, options);
+    return found.stopped ? std::nullopt : std::optional(std::move(found));
+  });
 }
 
 void MeasuredData::cancel_diagnosis() {

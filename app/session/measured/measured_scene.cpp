@@ -55,8 +55,8 @@ void MeasuredScene::arm_at(int trial, double time, std::vector<Pose>& out) const
 void MeasuredScene::simulate(const std::vector<Model>& models,
                              const std::vector<discrepancy::SceneVariant>& variants) {
   runs_.start(number_, static_cast<int>(models.size() * experiment_->trials.size()),
-              [experiment = experiment_, models, variants](
-                  const std::atomic<bool>& stop, const PathRuns<ScenePath>::Done& done) {
+              [experiment = experiment_, models, variants](const std::atomic<bool>& stop,
+                                                           const PathRuns<ScenePath>::Done& done) {
                 simulate_scene_paths(
                     *experiment, variants, stop, [&](int trial, int variant, ScenePath path) {
                       done({models[static_cast<std::size_t>(variant)], trial, std::move(path)});
@@ -79,16 +79,16 @@ bool MeasuredScene::has(Model model) const {
 void MeasuredScene::start_diagnosis(int threads) {
   if (!experiment_) throw UsageError("no experiment is open, expected one (open experiment PATH)");
   if (diagnosing_) throw UsageError("a diagnosis runs already, expected it to end or be cancelled");
-  diagnosing_ = std::make_unique<Job>(
-      [experiment = experiment_, threads = threads_for_diagnosis(threads)](
-          ProgressBoard& board, const std::atomic<bool>& stop) {
-        discrepancy::SceneDiagnosisOptions options;
-        options.threads = threads;
-        options.stop = &stop;
-        options.progress = [&](const std::string& doing, double share) { board.tell(doing, share); };
-        discrepancy::SceneDiagnosis found = discrepancy::diagnose_scene(*experiment, options);
-        return stop ? std::nullopt : std::optional(std::move(found));
-      });
+  diagnosing_ = std::make_unique<Job>([experiment = experiment_,
+                                       threads = threads_for_diagnosis(threads)](
+                                          ProgressBoard& board, const std::atomic<bool>& stop) {
+    discrepancy::SceneDiagnosisOptions options;
+    options.threads = threads;
+    options.stop = &stop;
+    options.progress = [&](const std::string& doing, double share) { board.tell(doing, share); };
+    discrepancy::SceneDiagnosis found = discrepancy::diagnose_scene(*experiment, options);
+    return stop ? std::nullopt : std::optional(std::move(found));
+  });
 }
 
 void MeasuredScene::cancel_diagnosis() {

@@ -120,8 +120,7 @@ std::vector<SceneInstrument> instruments_of(const SceneExperiment& experiment, i
   std::vector<SceneInstrument> list;
   const SceneTrial& trial = experiment.trials[static_cast<std::size_t>(t)];
   if (trial.markers.size() > 0)
-    list.push_back(
-        {Kind::markers, 0, "markers", "mm", with_axes(experiment.markers, 3), 0, 1.0e3});
+    list.push_back({Kind::markers, 0, "markers", "mm", with_axes(experiment.markers, 3), 0, 1.0e3});
   for (std::size_t c = 0; c < trial.pixels.size(); ++c)
     if (trial.pixels[c].size() > 0)
       list.push_back({Kind::image, static_cast<int>(c), "camera " + experiment.cameras[c].name,
@@ -134,11 +133,11 @@ std::vector<SceneInstrument> instruments_of(const SceneExperiment& experiment, i
         {Kind::moment, static_cast<int>(w), "moment at " + name, "N m", {"x", "y", "z"}, 3});
   }
   if (trial.torques.size() > 0)
-    list.push_back({Kind::torques, 0, "motors", "N m (N)",
-                    joints_named(experiment, trial.torque_columns)});
+    list.push_back(
+        {Kind::torques, 0, "motors", "N m (N)", joints_named(experiment, trial.torque_columns)});
   if (trial.follows_commands && trial.joints.size() > 0)
-    list.push_back({Kind::encoders, 0, "encoders", "rad (m)",
-                    joints_named(experiment, trial.joint_columns)});
+    list.push_back(
+        {Kind::encoders, 0, "encoders", "rad (m)", joints_named(experiment, trial.joint_columns)});
   return list;
 }
 

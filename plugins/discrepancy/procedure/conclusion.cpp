@@ -274,7 +274,8 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
                                    behind, said_by_data(best) - said_by_data(competitor)) +
                               text(" %g more numbers", more_numbers(competitor, best)) +
                               (turns ? "; one trial alone decides between them." : "."));
-    // Beside several causes a competing model has to be fitted with the others: weigh_substitutes().
+    // Beside several causes a competing model has to be fitted with the others:
+    // weigh_substitutes().
     if (beaten || findings.chain.size() > 1 || contains(competitor, best, turns)) {
       // What is named is not its own competitor.
       const bool found = std::ranges::any_of(
@@ -287,8 +288,8 @@ void weigh_competing_models(const Findings& findings, Diagnosis& diagnosis, int 
   }
 }
 
-// Of several causes, those that others could stand in for: the data say that something is there, and
-// not which.
+// Of several causes, those that others could stand in for: the data say that something is there,
+// and not which.
 void weigh_substitutes(const Findings& findings, Diagnosis& diagnosis, int base_effects) {
   if (findings.chain.size() < 2) return;
   Verdict& verdict = diagnosis.verdict;

@@ -15,8 +15,8 @@ double said_by_data(const Candidate& candidate);
 /// changes (none, of what a sensor does). A gain is half the square of a change.
 double least_gain_beside(const std::vector<Candidate>& found, const DiagnosisSettings& settings);
 
-/// Nats that a competing model must lose by, or the data cannot tell it from `best`: clear odds, and
-/// a part of what the best one gains, since our own errors grow with it.
+/// Nats that a competing model must lose by, or the data cannot tell it from `best`: clear odds,
+/// and a part of what the best one gains, since our own errors grow with it.
 double margin_over(const Candidate& best, const DiagnosisSettings& settings);
 
 /// The least cost of the base and of the whole fits.

@@ -17,8 +17,8 @@ struct Findings {
   const DataSet* data = nullptr;
   const DiagnosisSettings* settings = &default_settings();
   std::vector<int> fit_trials;
-  std::vector<Candidate> chain;     ///< causes found so far, in the order they were added
-  HeldOut held_out;                 ///< of all of them together, where they are several
+  std::vector<Candidate> chain;  ///< causes found so far, in the order they were added
+  HeldOut held_out;              ///< of all of them together, where they are several
   /// Of several causes, others that would stand in one's place beside the rest.
   struct Substitute {
     std::size_t link = 0;  ///< of the chain

@@ -711,9 +711,8 @@ std::string finding(const Verdict& verdict) {
     case Outcome::named:
       return named(verdict, names, gain) + details(verdict);
     case Outcome::ambiguous:
-      if (std::ranges::any_of(verdict.causes, [](const NamedCause& cause) {
-            return !cause.instead_of.empty();
-          }))
+      if (std::ranges::any_of(verdict.causes,
+                              [](const NamedCause& cause) { return !cause.instead_of.empty(); }))
         return partly_ambiguous(verdict) + details(verdict);
       return "Something is missing, and these data cannot tell which: " + names + "." +
              details(verdict);

@@ -45,8 +45,8 @@ struct NamedCause {
   Share share;
   Change change;
   std::string against;  ///< of one that came near: what speaks against it
-  /// Under `ambiguous`, beside causes that are certain: the one in whose place it would stand. Empty
-  /// for all others, and where nothing is certain.
+  /// Under `ambiguous`, beside causes that are certain: the one in whose place it would stand.
+  /// Empty for all others, and where nothing is certain.
   std::string instead_of{};
 };
 
