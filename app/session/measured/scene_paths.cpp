@@ -17,6 +17,24 @@ constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
 constexpr double picture_rate = 50.0;
 constexpr const char* axes[] = {"x", "y", "z"};
 
+/// A trial's tables and a model's readings have the same names.
+template <class Tables>
+const auto& table_of(const SceneInstrument& instrument, const Tables& tables) {
+  const auto i = static_cast<std::size_t>(instrument.index);
+  switch (instrument.kind) {
+    case Kind::markers:
+      return tables.markers;
+    case Kind::image:
+      return tables.pixels[i];
+    case Kind::torques:
+      return tables.torques;
+    case Kind::encoders:
+      return tables.joints;
+    default:
+      return tables.wrenches[i];
+  }
+}
+
 std::vector<std::string> with_axes(const std::vector<discrepancy::SceneMarker>& markers,
                                    int count) {
   std::vector<std::string> columns;
@@ -142,36 +160,12 @@ std::vector<SceneInstrument> instruments_of(const SceneExperiment& experiment, i
 }
 
 const Samples& measured_by(const SceneInstrument& instrument, const SceneTrial& trial) {
-  const auto i = static_cast<std::size_t>(instrument.index);
-  switch (instrument.kind) {
-    case Kind::markers:
-      return trial.markers;
-    case Kind::image:
-      return trial.pixels[i];
-    case Kind::torques:
-      return trial.torques;
-    case Kind::encoders:
-      return trial.joints;
-    default:
-      return trial.wrenches[i];
-  }
+  return table_of(instrument, trial);
 }
 
 const Eigen::MatrixXd& said_by(const SceneInstrument& instrument,
                                const discrepancy::SceneReadings& readings) {
-  const auto i = static_cast<std::size_t>(instrument.index);
-  switch (instrument.kind) {
-    case Kind::markers:
-      return readings.markers;
-    case Kind::image:
-      return readings.pixels[i];
-    case Kind::torques:
-      return readings.torques;
-    case Kind::encoders:
-      return readings.joints;
-    default:
-      return readings.wrenches[i];
-  }
+  return table_of(instrument, readings);
 }
 
 std::vector<ScenePlantShape> shapes_of(const SceneExperiment& experiment) {

@@ -12,7 +12,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr std::size_t most_rivals = 3;
+constexpr std::size_t most_models = 3;
 constexpr std::size_t refitted_motions = 3;
 constexpr double always = std::numeric_limits<double>::infinity();
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -113,15 +113,15 @@ SceneNoise seen_noise(const SceneExperiment& experiment, const SceneDataSet& dat
 class Choice {
  public:
   Choice(const SceneExperiment& experiment, const SceneDataSet& data,
-         const std::vector<SceneRival>& rivals, const SceneNextOptions& options)
-      : experiment_(experiment), rivals_(rivals), options_(options), plan_(experiment) {
+         const std::vector<OpenModel>& models, const SceneNextOptions& options)
+      : experiment_(experiment), models_(models), options_(options), plan_(experiment) {
     plan_.trials.clear();
     // They name trials that are not in it.
     std::erase_if(plan_.effects,
                   [](const plant::Effect& effect) { return effect.words.contains("trial"); });
     next_.noise = seen_noise(experiment, data, options.base);
     plan_.noise = next_.noise;
-    for (const SceneRival& one : rivals_) {
+    for (const OpenModel& one : models_) {
       next_.names.push_back(one.name);
       variants_.push_back(variant_of(one.fit->model));
     }
@@ -224,7 +224,7 @@ class Choice {
     // A touch comes sooner or later with other noise of the encoders: there less can be promised.
     widen_noise(simulator, data, variants_.front());
     std::vector<Spread> spreads;
-    for (const SceneRival& one : rivals_) spreads.push_back(spread_of(*one.fit));
+    for (const OpenModel& one : models_) spreads.push_back(spread_of(*one.fit));
     std::vector<SceneSimulator::Request> requests;
     for (int t = 0; t < static_cast<int>(motions.size()); ++t)
       for (const Spread& spread : spreads)
@@ -237,7 +237,7 @@ class Choice {
       const int trial = static_cast<int>(t);
       std::vector<Eigen::VectorXd> at;
       std::vector<Eigen::MatrixXd> ways;  // by model: what its numbers, as far as open, change
-      for (std::size_t v = 0; v < rivals_.size(); ++v) {
+      for (std::size_t v = 0; v < models_.size(); ++v) {
         at.push_back(residual(data, trial, one.predictions[v]));
         Eigen::MatrixXd change(at.back().size(), static_cast<long>(spreads[v].moved.size()));
         for (long p = 0; p < change.cols(); ++p) {
@@ -248,8 +248,8 @@ class Choice {
         }
         ways.push_back(change * spreads[v].root);
       }
-      one.left.assign(rivals_.size(), 0.0);
-      for (std::size_t v = 1; v < rivals_.size(); ++v)
+      one.left.assign(models_.size(), 0.0);
+      for (std::size_t v = 1; v < models_.size(); ++v)
         one.left[v] = left_of(at[v] - at[0], ways[0], ways[v]);
       const auto nearest = std::min_element(one.left.begin() + 1, one.left.end());
       one.refitted = *nearest;
@@ -308,7 +308,7 @@ class Choice {
   // Noise units in all from which on the search no longer calls the two a tie.
   double enough(const Motion& one) const {
     const SceneSearchSettings& how = options_.settings.search;
-    const SceneFitResult &a = *rivals_.front().fit, &b = *rivals_[one.other].fit;
+    const SceneFitResult &a = *models_.front().fit, &b = *models_[one.other].fit;
     const double left = SceneDataSet::beyond_noise(a.sum);
     const double numbers = std::abs(a.model.size() - b.model.size());
     return std::sqrt((how.least_tie + how.tie_share * square(left) + how.number_price * numbers) *
@@ -400,7 +400,7 @@ class Choice {
   }
 
   const SceneExperiment& experiment_;
-  const std::vector<SceneRival>& rivals_;
+  const std::vector<OpenModel>& models_;
   const SceneNextOptions& options_;
   SceneExperiment plan_;  // all motions
   std::vector<SceneVariant> variants_;
@@ -411,13 +411,13 @@ class Choice {
 
 }  // namespace
 
-std::vector<SceneRival> open_rivals(const SceneFindings& found) {
-  std::vector<SceneRival> rivals;
+std::vector<OpenModel> open_models(const SceneFindings& found) {
+  std::vector<OpenModel> models;
   const auto add = [&](const SceneCandidate& one) {
     const std::string name = joined_names(one.names);
-    if (rivals.size() < most_rivals &&
-        std::ranges::find(rivals, name, &SceneRival::name) == rivals.end())
-      rivals.push_back({name, &one.fit});
+    if (models.size() < most_models &&
+        std::ranges::find(models, name, &OpenModel::name) == models.end())
+      models.push_back({name, &one.fit});
   };
   if (found.outcome == SceneFindings::Outcome::adequate || found.candidates.empty()) return {};
   add(found.candidates.front());
@@ -427,17 +427,17 @@ std::vector<SceneRival> open_rivals(const SceneFindings& found) {
     if (!found.explained() || (one.excess <= found.seen_units &&
                                one.names.size() <= found.candidates.front().names.size()))
       add(one);
-  if (rivals.size() < 2 && !found.explained())
-    rivals.push_back({"the refitted model", &found.baseline});
-  return rivals;
+  if (models.size() < 2 && !found.explained())
+    models.push_back({"the refitted model", &found.baseline});
+  return models;
 }
 
 SceneNext next_scene_experiment(const SceneExperiment& experiment, const SceneDataSet& data,
-                                const std::vector<SceneRival>& rivals,
+                                const std::vector<OpenModel>& models,
                                 const SceneNextOptions& options, long& simulations) {
   // Nothing to tell apart.
-  if (rivals.size() < 2) return {};
-  return Choice(experiment, data, rivals, options).run(simulations);
+  if (models.size() < 2) return {};
+  return Choice(experiment, data, models, options).run(simulations);
 }
 
 }  // namespace pedicel::discrepancy

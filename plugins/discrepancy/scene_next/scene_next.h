@@ -34,7 +34,7 @@ struct SceneNext {
 };
 
 /// A model that may be the right one.
-struct SceneRival {
+struct OpenModel {
   std::string name;
   const SceneFitResult* fit = nullptr;
 };
@@ -42,10 +42,10 @@ struct SceneRival {
 /// Those that the findings leave open, the likeliest first: what competes with the best, and what
 /// leaves no more than it may; where nothing explains the data, what came nearest. Fewer than two:
 /// nothing is open.
-std::vector<SceneRival> open_rivals(const SceneFindings& findings);
+std::vector<OpenModel> open_models(const SceneFindings& findings);
 
 struct SceneNextOptions {
-  SceneNumerics numerics;  ///< those that the rivals were fitted with
+  SceneNumerics numerics;  ///< those that the models were fitted with
   SceneSettings settings;
   int threads = 1;
   int base = 0;                             ///< the trial that motions are made from
@@ -56,7 +56,7 @@ struct SceneNextOptions {
 /// of them best from the one nearest to it, both refitted. `data`: of the trials so far.
 /// `simulations` counts what was simulated.
 SceneNext next_scene_experiment(const SceneExperiment& experiment, const SceneDataSet& data,
-                                const std::vector<SceneRival>& rivals,
+                                const std::vector<OpenModel>& models,
                                 const SceneNextOptions& options, long& simulations);
 
 }  // namespace pedicel::discrepancy

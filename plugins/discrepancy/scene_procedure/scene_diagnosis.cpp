@@ -238,9 +238,9 @@ class Procedure {
 
   // The motion that parts the models which are left open.
   void plan_next() {
-    const std::vector<SceneRival> rivals = open_rivals(searched_);
+    const std::vector<OpenModel> models = open_models(searched_);
     // What was cut short has not looked at all models.
-    if (stopped() || late() || searched_.partial || rivals.size() < 2) return;
+    if (stopped() || late() || searched_.partial || models.size() < 2) return;
     tell("looking for the motion that decides", 0.9);
     SceneNextOptions how;
     how.numerics = coarse();
@@ -253,7 +253,7 @@ class Procedure {
       if (misfit[static_cast<std::size_t>(t)] > misfit[static_cast<std::size_t>(how.base)] ||
           t == out_.fit_trials.front())
         how.base = t;
-    out_.next = next_scene_experiment(experiment_, data_, rivals, how, more_);
+    out_.next = next_scene_experiment(experiment_, data_, models, how, more_);
     tell_next_motion(out_.next, out_.verdict);
   }
 

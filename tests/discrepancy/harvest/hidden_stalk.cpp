@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
+#include "discrepancy/scene_cases/draw.h"
 #include "discrepancy/scene_cases/harvest_case.h"
 #include "discrepancy/score_table.h"
 #include "pedicel/core/diagnostics.h"
@@ -20,22 +20,12 @@ using discrepancy::Estimate;
 using discrepancy::SceneDiagnosis;
 using discrepancy::SceneExperiment;
 using discrepancy::SymptomNumber;
+using scene_case::Draw;
 using scene_case::Run;
 using scene_case::Setting;
 
 constexpr double farthest = 0.012, softest = 0.75, weakest = 0.6;  // m, 1, 1
 constexpr double interval95 = 1.96;
-
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * std::uniform_real_distribution<double>()(random_);
-  }
-
- private:
-  std::mt19937_64 random_;
-};
 
 SceneExperiment read(const std::filesystem::path& folder) {
   Diagnostics diagnostics;
