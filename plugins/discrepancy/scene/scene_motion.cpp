@@ -19,9 +19,8 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr int body_of_robot = 0, body_of_scene = 1;
-/// N/m, of what a link holds; and the nearest to a segment's middle that a hold gives way in
-/// bending, as a share of its length.
-constexpr double hold_stiffness = 1.0e6, least_bent = 5.0e-3;
+/// N/m, of what a link holds; and times the stiffness of the held segment's joint.
+constexpr double hold_stiffness = 1.0e6, hold_turning = 100.0;
 constexpr int curve_places = 200;
 
 // As for trials of plants (trial_run.cpp), but for contact, whose iterations end where they find
@@ -225,18 +224,10 @@ class SceneRun {
       held.position_L =
           link.inverse() * cosserat::point_on(model, state, held.place.element, held.place.back);
       held.rotation = link.rotation.conjugate() * state.orientation[held.place.element];
-      held.turning = turning_of(model.elements[held.place.element], held.place.back);
+      held.turning = hold_turning * model.elements[held.place.element].bend_stiffness;
     }
     held.before.fill(link * held.position_L);
     if (found) held_.push_back(std::move(held));
-  }
-
-  // A segment's frame is that of its middle, and it bends from there to where it is held: half of
-  // it, where a fruit at its end is. Without that a short stalk is stiffer by a half segment.
-  static Vec3 turning_of(const cosserat::Element& element, double back) {
-    const double bent =
-        std::max(std::abs(0.5 * element.length - back), least_bent * element.length);
-    return Vec3(element.section.bend1, element.section.bend2, element.section.twist) / bent;
   }
 
   cosserat::Support support_of(const Held& held) const {
