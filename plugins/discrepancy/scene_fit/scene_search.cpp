@@ -523,13 +523,16 @@ class Search {
     std::size_t fewest = things(best);
     for (const std::size_t i : near) fewest = std::min(fewest, things(found_.candidates[i]));
     std::erase_if(near, [&](std::size_t i) { return things(found_.candidates[i]) > fewest; });
-    std::erase_if(near, [&, all = near](std::size_t i) {
+    const std::vector<std::size_t> all = near;
+    std::erase_if(near, [&](std::size_t i) {
       return std::ranges::any_of(all, [&](std::size_t other) {
         const SceneFitResult& one = found_.candidates[other].fit;
         return speaks_for(one, found_.candidates[i].fit,
                           one.model.size() - found_.baseline.model.size(), how_);
       });
     });
+    // Of three each may speak against the next one: then none does.
+    if (near.empty()) near = all;
     // They are in the order of their scores, so this is the best of the plainest.
     const std::size_t first = near.front();
     for (std::size_t i = 1; i < near.size(); ++i) found_.competing.push_back(near[i]);
