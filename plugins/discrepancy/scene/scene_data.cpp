@@ -197,22 +197,28 @@ std::array<SceneDataSet::Sum, scene_channels> SceneDataSet::sums(
 }
 
 void SceneDataSet::widen(int trial, const SceneReadings& reference,
-                         std::span<const SceneReadings> others) {
+                         std::span<const SceneReadings> others,
+                         std::span<const SceneReadings> doubts) {
   const long rows = size(trial);
   Eigen::VectorXd own(rows), square = Eigen::VectorXd::Zero(rows), other(rows);
   weight_.resize(experiment_->trials.size());
   weight_[static_cast<std::size_t>(trial)].resize(0);
   const double always = std::numeric_limits<double>::infinity();
   residual(trial, reference, always, own);
-  int count = 0;
-  for (const SceneReadings& one : others) {
-    if (!one.healthy) continue;
-    residual(trial, one, always, other);
-    square += (other - own).cwiseAbs2();
-    ++count;
-  }
-  if (count == 0) return;
-  square /= count;
+  const auto add_mean_square = [&](std::span<const SceneReadings> all) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows);
+    int count = 0;
+    for (const SceneReadings& one : all) {
+      if (!one.healthy) continue;
+      residual(trial, one, always, other);
+      sum += (other - own).cwiseAbs2();
+      ++count;
+    }
+    if (count > 0) square += sum / count;
+  };
+  add_mean_square(others);
+  add_mean_square(doubts);
+  if (square.isZero(0.0)) return;
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(rows);
   long first = 0;
   for_each_channel(experiment_->trials[static_cast<std::size_t>(trial)], nullptr,

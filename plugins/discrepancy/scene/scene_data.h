@@ -24,7 +24,9 @@ class SceneDataSet {
 
   /// Counts samples less where predictions are unsure of themselves: `others` are predictions as
   /// good as `reference`, and how far they are from it adds to the noise of the samples around.
-  void widen(int trial, const SceneReadings& reference, std::span<const SceneReadings> others);
+  /// `doubts`: likewise, for another reason, so that both add up.
+  void widen(int trial, const SceneReadings& reference, std::span<const SceneReadings> others,
+             std::span<const SceneReadings> doubts = {});
 
   double deviation(SceneChannel kind) const { return deviation_[static_cast<std::size_t>(kind)]; }
   /// Entries of residual() of a trial; those without a measurement are 0.

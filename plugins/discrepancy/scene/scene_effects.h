@@ -107,6 +107,9 @@ struct SceneEffectDefinition {
   std::optional<InBaseline> in_baseline;
   std::vector<effects::Sign> speaks_for;  ///< symptoms of scenes, by name and rank
   std::string tells_apart;                ///< an experiment that parts it from its look-alikes
+  /// 1, relative: two honest solvers know its `factor` to this; 0: no part of the predictions'
+  /// noise. Counted in trials in which something comes off.
+  double factor_known_to = 0.0;
 
   const effects::EffectParameter* find(const std::string& parameter) const;
 };

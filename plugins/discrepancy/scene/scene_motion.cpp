@@ -19,8 +19,9 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr int body_of_robot = 0, body_of_scene = 1;
-/// N/m, of what a link holds; and times the stiffness of the held segment's joint.
-constexpr double hold_stiffness = 1.0e6, hold_turning = 100.0;
+/// N/m, of what a link holds; and the nearest to a segment's middle that a hold gives way in
+/// bending, as a share of its length.
+constexpr double hold_stiffness = 1.0e6, least_bent = 5.0e-3;
 constexpr int curve_places = 200;
 
 // As for trials of plants (trial_run.cpp), but for contact, whose iterations end where they find
@@ -182,11 +183,12 @@ class SceneRun {
   struct Held {
     std::string what;
     int plant = 0, link = 0;
-    plant::PlacedPoint place;
-    Vec3 position_L;    // m, of the held point
-    Quat rotation;      // E to L
-    Vec3 turning;       // N m/rad
-    double mass = 0.0;  // kg, of a fruit: once it is off the plant, the link carries it
+    plant::PlacedPoint place;  // of the spring that holds it
+    Vec3 position_L;           // m, of that place
+    Vec3 centre_L;             // m, of the organ
+    Quat rotation;             // E to L
+    Vec3 turning;              // N m/rad
+    double mass = 0.0;         // kg, of a fruit: once it is off the plant, the link carries it
     std::array<Vec3, 2> before{Vec3::Zero(), Vec3::Zero()};  // m, W, at the last two steps
   };
 
@@ -221,13 +223,31 @@ class SceneRun {
       }
       found = found || curve >= 0;
       if (!found) continue;
-      held.position_L =
-          link.inverse() * cosserat::point_on(model, state, held.place.element, held.place.back);
+      held.centre_L = link.inverse() * place_of(state, held.place);
+      give_way(model.elements[held.place.element], held);
+      held.position_L = link.inverse() * place_of(state, held.place);
       held.rotation = link.rotation.conjugate() * state.orientation[held.place.element];
-      held.turning = hold_turning * model.elements[held.place.element].bend_stiffness;
     }
-    held.before.fill(link * held.position_L);
+    held.before.fill(link * held.centre_L);
     if (found) held_.push_back(std::move(held));
+  }
+
+  // A segment's frame is that of its middle, and the stalk bends from there to where it is held:
+  // over half of the segment, where a fruit at its end is. Without that a short stalk is stiffer by
+  // a half segment. A spring in the middle of that stretch stands for it, as the midpoint rule has
+  // it: at its end a stalk of six segments between two clamps would be softer by 5 %.
+  static void give_way(const cosserat::Element& element, Held& held) {
+    const double middle = 0.5 * element.length;
+    const double bent = std::max(std::abs(middle - held.place.back), least_bent * element.length);
+    held.turning = Vec3(element.section.bend1, element.section.bend2, element.section.twist) / bent;
+    held.place.back = 0.5 * (middle + held.place.back);
+  }
+
+  // m, W, of a place as a support has it: on the segment's axis from its far node. Its own strain
+  // would be a force of newtons in a spring this stiff.
+  static Vec3 place_of(const cosserat::RodState& state, const plant::PlacedPoint& place) {
+    const auto e = static_cast<std::size_t>(place.element);
+    return state.position[e] - place.back * (state.orientation[e] * Vec3::UnitZ());
   }
 
   cosserat::Support support_of(const Held& held) const {
@@ -245,9 +265,8 @@ class SceneRun {
   // What the held organs exert on their links.
   void record_held(const cosserat::RodSystem& rods, int row) {
     for (Held& held : held_) {
-      const cosserat::RodModel& model = rods.model(first_ + held.plant);
       const cosserat::RodState& state = rods.state(first_ + held.plant);
-      const Vec3 here = arm_.links[static_cast<std::size_t>(held.link)] * held.position_L;
+      const Vec3 here = arm_.links[static_cast<std::size_t>(held.link)] * held.centre_L;
       const Vec3 acceleration = (here - 2.0 * held.before[1] + held.before[0]) / (dt_ * dt_);
       held.before = {held.before[1], here};
       if (!state.alive[held.place.element]) {
@@ -258,7 +277,7 @@ class SceneRun {
         continue;
       }
       const cosserat::Support support = support_of(held);
-      const Vec3 place = cosserat::point_on(model, state, held.place.element, held.place.back);
+      const Vec3 place = place_of(state, held.place);
       coupling::ContactSum sum;
       sum.force_W = hold_stiffness * (place - support.position);
       sum.place_W = place;

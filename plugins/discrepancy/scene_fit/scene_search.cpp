@@ -486,6 +486,9 @@ class Search {
                holds_elsewhere(found_.baseline_check, found_.nominal_check, how_)) {
       found_.outcome = Outcome::adequate;
       found_.material = material_of(found_.baseline, experiment_, how_);
+    } else if (is_adequate_finely()) {
+      found_.outcome = Outcome::adequate;
+      found_.material = material_of(found_.baseline, experiment_, how_);
     } else {
       found_.outcome = Outcome::unknown;
       // Last, since a force at a place of its own, with a course of its own, explains much that is
@@ -493,6 +496,24 @@ class Search {
       if (!stopped()) look_outside();
       found_.material = material_of(found_.baseline, experiment_, how_);
     }
+  }
+
+  // A coarse mesh may leave more than the floor where the scene is right: a stalk of 60 mm is three
+  // of its segments. So before anything is called unknown, the mesh that judges is asked.
+  bool is_adequate_finely() {
+    if (!options_.refit_finely || stopped() ||
+        found_.baseline_excess > how_.clean_allowance * how_.floor)
+      return false;
+    tell("refitting the baseline with a finer mesh", 0.88);
+    const FinerFit fine = options_.refit_finely(found_.baseline.model);
+    if (fine.excess > how_.floor ||
+        !holds_elsewhere(fine.check_excess, found_.nominal_check, how_))
+      return false;
+    found_.baseline = fine.fit;
+    found_.baseline_excess = fine.excess;
+    found_.baseline_check = fine.check_excess;
+    found_.baseline_cost = cost_of(fine.fit);
+    return true;
   }
 
   bool pays(const SceneCandidate& one) const {

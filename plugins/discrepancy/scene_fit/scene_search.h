@@ -20,6 +20,13 @@ struct SceneCandidate {
   std::optional<double> check_excess;  ///< the same on trials held out
 };
 
+/// A model that was refitted and judged with another mesh than the search has.
+struct FinerFit {
+  SceneFitResult fit;
+  double excess = 0.0;                 ///< noise units, RMS beyond the noise
+  std::optional<double> check_excess;  ///< the same on trials held out
+};
+
 struct SceneSearchOptions {
   std::vector<int> trials;  ///< to be fitted
   std::vector<int> check;   ///< held out
@@ -31,6 +38,8 @@ struct SceneSearchOptions {
   /// m, W: by how much farther the tool pushes than a model says, by wrenches (push_shift()); none:
   /// it is not known.
   std::function<Vec3(const std::vector<plant::Effect>&)> push_shift;
+  /// Refits a model with the mesh that judges; none: the search's own is as fine.
+  std::function<FinerFit(const Hypothesis&)> refit_finely;
 };
 
 struct SceneFindings {
@@ -59,7 +68,7 @@ struct SceneFindings {
 };
 
 /// Which cause explains what modulus, density and damping leave: all are looked at in the linear at
-/// once, the best are refitted in full, a second one is looked for on top where one does not do.
+/// once, the best are refitted in full, further ones are looked for on top where one does not do.
 SceneFindings search_scene(SceneEvaluator& evaluator, const SceneSearchOptions& options);
 
 /// For people: the fits, and what they say.

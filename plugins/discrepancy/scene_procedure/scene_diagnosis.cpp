@@ -106,9 +106,24 @@ class Procedure {
       return push_shift(simulator, effects, data_.deviation(SceneChannel::force),
                         options_.settings.robot);
     };
+    how.refit_finely = [this](const Hypothesis& model) { return refitted_finely(model); };
     out_.findings = search_scene(evaluator, how);
     // The simulator goes with this function, and its count with it.
     more_ += simulator.simulations();
+  }
+
+  FinerFit refitted_finely(const Hypothesis& model) {
+    SceneEvaluator evaluator(fine_, data_, options_.settings);
+    SceneFitOptions how;
+    how.trials = out_.fit_trials;
+    how.iterations = options_.settings.search.polishing;
+    FinerFit fine{fit_scene(evaluator, model, how), 0.0, {}};
+    fine.excess = SceneDataSet::beyond_noise(fine.fit.sum);
+    if (out_.check_trials.empty()) return fine;
+    const Eigen::MatrixXd left = evaluator.residuals({&fine.fit.model, 1}, out_.check_trials);
+    fine.check_excess =
+        SceneDataSet::beyond_noise(evaluator.sum(left.col(0), out_.check_trials));
+    return fine;
   }
 
   // The model that is told, and those that compete with it, with the finer mesh.

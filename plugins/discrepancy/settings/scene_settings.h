@@ -38,7 +38,7 @@ struct SceneSearchSettings {
   int renewals = 3;
   int tried = 16;
   int refits = 4;
-  int causes = 2;
+  int causes = 3;
 };
 
 /// Differences of fits, and what is known of a scene beforehand.

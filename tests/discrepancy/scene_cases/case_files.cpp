@@ -57,12 +57,18 @@ std::string joint(const std::string& name, const std::string& kind, const std::s
   return text + "</joint>\n";
 }
 
-std::string urdf() {
+std::string urdf(const Setting& s) {
   std::ostringstream shape;
-  for (const char* kind : {"visual", "collision"})
+  for (const char* kind : {"visual", "collision"}) {
     shape << "<" << kind << "><origin xyz=\"" << 0.5 * finger_length
           << " 0 0\" rpy=\"0 1.57079632679 0\"/><geometry><cylinder radius=\"" << finger_radius
           << "\" length=\"" << finger_length << "\"/></geometry></" << kind << ">";
+    // In a harvest the stem slides off the fingertip, which is round.
+    if (s.truss)
+      shape << "<" << kind << "><origin xyz=\"" << finger_length
+            << " 0 0\"/><geometry><sphere radius=\"" << finger_radius << "\"/></geometry></" << kind
+            << ">";
+  }
   std::ostringstream out;
   out << "<?xml version=\"1.0\"?>\n<robot name=\"reacher\">\n"
       << link("base", "0 0 0.05", 3.0, "0.02 0.02 0.02")
@@ -318,7 +324,7 @@ class Tables {
 
 std::vector<Run> make_case(const std::filesystem::path& folder, const Setting& setting) {
   const std::vector<Drive> drives = drives_of(setting);
-  write(folder / "reacher.urdf", urdf());
+  write(folder / "reacher.urdf", urdf(setting));
   write(folder / "plant.yaml", plant(setting));
   write(folder / "scene.yaml", scene(setting, drives.front().joints.front()));
   write(folder / "experiment.yaml", experiment(setting, drives));

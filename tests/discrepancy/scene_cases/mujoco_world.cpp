@@ -15,12 +15,18 @@ namespace pedicel::scene_case {
 
 namespace {
 
-constexpr double dt = 2.5e-4;               // s
-constexpr double segment = 0.01;            // m
+constexpr double segment = 0.01;            // m, of the stem
+constexpr double truss_segment = 0.005;     // m: between two clamps 6 segments are 3 % too stiff
 constexpr int stretching = 4;               // segments to one that gives along the stem
 constexpr double immovable = 1.0e4;         // kg m2 or kg, of driven joints
 constexpr double string_stiffness = 150.0;  // N/m
 constexpr double pi = 3.14159265358979323846;
+// s. The contact of a stem that swings free and slides along the finger chatters: by 0.2 N with the
+// longer step, by 0.05 N with half of it, and not with the shorter one.
+double step_of(const Setting& s) {
+  return s.truss ? 6.25e-5 : 2.5e-4;
+}
+
 double damping_time(const Setting& s) {
   return s.damping_time * hidden_number(s, "damping_time", "factor", 1.0);
 }
@@ -56,7 +62,7 @@ class Fruit {
  public:
   explicit Fruit(const Setting& s) : radius_(s.truss->fruit_radius) {
     const Truss& truss = *s.truss;
-    stub_ = 0.5 * truss.length / std::round(truss.length / segment);
+    stub_ = 0.5 * truss.length / std::round(truss.length / truss_segment);
     const double r2 = truss.radius * truss.radius, f2 = radius_ * radius_;
     const double own = s.density * hidden_number(s, "density", "factor", 1.0) * pi * r2 * stub_;
     const double ball = 4.0 / 3.0 * pi * f2 * radius_ * truss.fruit_density *
@@ -80,7 +86,7 @@ class Fruit {
 };
 
 /// A curve of the plant, as nested bodies: half a segment stands fast, and a joint lies in the
-/// middle of each stretch of 10 mm that bends. The truss begins in the stem.
+/// middle of each stretch that bends. The truss begins in the stem.
 class Chain {
  public:
   /// `held`: the fruit is off.
@@ -103,7 +109,7 @@ class Chain {
         radius_(radius),
         held_(held),
         out_(out) {
-    count_ = static_cast<int>(std::lround(whole_ / segment));
+    count_ = static_cast<int>(std::lround(whole_ / (is_truss() ? truss_segment : segment)));
     length_ = whole_ / count_;
     const double factor = hidden_number(s, "youngs_modulus", "factor", 1.0);
     const double area = pi * radius * radius, second = 0.25 * area * radius * radius;
@@ -158,12 +164,13 @@ class Chain {
     // MuJoCo reckons contacts with, too; its own damping is not, and they would creep.
     out_ << "<joint name='" << letter_ << axis << i << "' type='hinge' axis='" << vector
          << "' stiffness='" << text(stiffness) << "' armature='"
-         << text(dt * damping_time(s_) * stiffness) << "'/>\n";
+         << text(step_of(s_) * damping_time(s_) * stiffness) << "'/>\n";
   }
   // A stem that sticks to a finger is held by its stretch, which is some 10 um/N.
   void stretch(int i) {
     out_ << "<joint name='" << letter_ << "a" << i << "' type='slide' axis='0 0 1' stiffness='"
-         << text(stretch_) << "' armature='" << text(dt * damping_time(s_) * stretch_) << "'/>\n";
+         << text(stretch_) << "' armature='" << text(step_of(s_) * damping_time(s_) * stretch_)
+         << "'/>\n";
   }
   void piece(double length) {
     const double r2 = radius_ * radius_, mass = mass_ * length / length_;
@@ -254,7 +261,8 @@ void arm(const Setting& s, const Held* held, std::ostringstream& out) {
 std::string model_text(const Setting& s, const Held* held = nullptr) {
   const double friction = hidden_number(s, "contact_friction", "coefficient", s.friction);
   std::ostringstream out;
-  out << "<mujoco><compiler angle='radian' autolimits='true'/>\n<option timestep='" << text(dt)
+  out << "<mujoco><compiler angle='radian' autolimits='true'/>\n<option timestep='"
+      << text(step_of(s))
       << "' cone='elliptic' impratio='100' integrator='Euler' solver='PGS' iterations='200' "
          "tolerance='1e-9' noslip_iterations='20'/>\n"
       << "<size nconmax='200' njmax='2000'/>\n"
@@ -319,20 +327,21 @@ std::map<std::string, double> rest_of(Setting s) {
 
 class World {
  public:
-  World(const Setting& s, const Drive& drive) : s_(s), drive_(drive), rest_(rest_of(s)) {
+  World(const Setting& s, const Drive& drive)
+      : s_(s), drive_(drive), dt_(step_of(s)), rest_(rest_of(s)) {
     load(nullptr);
   }
 
   Run run() {
     Run out;
-    out.dt = dt;
+    out.dt = dt_;
     lead(0.0);
     mj_forward(model_.get(), data_.get());
     settle();
-    const int steps = static_cast<int>(std::lround(drive_.duration / dt));
+    const int steps = static_cast<int>(std::lround(drive_.duration / dt_));
     for (int k = 0; k <= steps; ++k) {
-      lead(k * dt);
-      if (k * dt >= drive_.grasp && !is_held_) take_hold();
+      lead(k * dt_);
+      if (k * dt_ >= drive_.grasp && !is_held_) take_hold();
       push();
       mj_forward(model_.get(), data_.get());
       note(out, k > 0);
@@ -447,10 +456,10 @@ class World {
   }
 
   void lead(double t) {
-    const Vec3 now = told(t), before = told(t - dt);
+    const Vec3 now = told(t), before = told(t - dt_);
     for (int j = 0; j < 3; ++j) {
       data_->qpos[driven_[static_cast<std::size_t>(j)]] = now[j];
-      data_->qvel[driven_[static_cast<std::size_t>(j)]] = (now[j] - before[j]) / dt;
+      data_->qvel[driven_[static_cast<std::size_t>(j)]] = (now[j] - before[j]) / dt_;
     }
     data_->time = t;
     time_ = t;
@@ -465,7 +474,7 @@ class World {
         data_->qfrc_applied[v] = -damping_time(s_) * model_->jnt_stiffness[joint] * data_->qvel[v];
       }
     pull();
-    const Vec3 a = (told(time_ + dt) - 2.0 * told(time_) + told(time_ - dt)) / (dt * dt);
+    const Vec3 a = (told(time_ + dt_) - 2.0 * told(time_) + told(time_ - dt_)) / (dt_ * dt_);
     std::vector<mjtNum> mass(static_cast<std::size_t>(model_->nv * model_->nv));
     if (giving_.front() >= 0) mj_fullM(model_.get(), mass.data(), data_->qM);
     for (std::size_t j = 0; j < 3; ++j) {
@@ -541,7 +550,7 @@ class World {
     mjtNum v[6];
     mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, fruit_, v, 0);
     const Vec3 velocity = of(v + 3);
-    fruit_acceleration_ = moved ? Vec3((velocity - fruit_velocity_) / dt) : Vec3(0, 0, 0);
+    fruit_acceleration_ = moved ? Vec3((velocity - fruit_velocity_) / dt_) : Vec3(0, 0, 0);
     fruit_velocity_ = velocity;
   }
 
@@ -554,7 +563,7 @@ class World {
     const Vec3 before = linear_, turning = angular_;
     momentum();
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-    if (moved) force = -(linear_ - before) / dt, moment = -(angular_ - turning) / dt;
+    if (moved) force = -(linear_ - before) / dt_, moment = -(angular_ - turning) / dt_;
     for (const int body : beyond_) {
       const Vec3 weight = model_->body_mass[body] * Vec3(0, 0, -9.81);
       force += weight;
@@ -639,6 +648,7 @@ class World {
 
   const Setting& s_;
   const Drive& drive_;
+  const double dt_;  // s
   Model model_;
   Data data_;
   double time_ = 0.0;

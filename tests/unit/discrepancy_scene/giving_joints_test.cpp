@@ -72,6 +72,9 @@ TEST_F(GivingArmAtStem, SamplesCountLessWherePredictionsPart) {
   const double after = data.sums(0, off)[0].square;
   // 16 stays in the first half and becomes 16 / 17 in the second.
   EXPECT_NEAR(after / before, 0.5 * (1.0 + 1.0 / 17.0), 0.03);
+  // A second reason adds to the first one.
+  data.widen(0, told, {&other, 1}, {&other, 1});
+  EXPECT_NEAR(data.sums(0, off)[0].square / before, 0.5 * (1.0 + 1.0 / 33.0), 0.03);
 }
 
 }  // namespace

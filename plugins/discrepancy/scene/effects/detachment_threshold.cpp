@@ -33,6 +33,9 @@ SceneEffectDefinition define_detachment_threshold() {
     return starts;
   };
   d.speaks_for = {{"detachment", 1}, {"force_breaks_off", 1}};
+  // The force in a stalk is known as its stiffness is, and with it the moment at which it parts. On
+  // meshes of 10 and of 5 mm the fruit of a stalk of 60 mm came off 2 ms apart, and two solvers 7.
+  d.factor_known_to = 0.02;
   d.tells_apart = "pull a fruit with a force gauge until it comes off";
   return d;
 }
