@@ -12,8 +12,10 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
-/// rad/s or m/s: a joint's friction grows with tanh(speed / creeping), so that rest bears none.
-constexpr double creeping = 1.0e-2;
+/// A joint's friction grows with tanh(speed / creeping), so that rest bears none. What noise of the
+/// encoders makes a joint creep by, smoothed, counts as rest: 1/s, over their scatter; and rad/s or
+/// m/s, of an arm whose speeds are known.
+constexpr double creeping_of_noise = 100.0, least_creeping = 1.0e-4;
 
 using MotionRows = SceneMotion::Rows;
 
@@ -210,6 +212,8 @@ class Observer {
     const robot::Joint& joint =
         robot
             .joints[robot.joint(member_.arm->model().joint_names()[static_cast<std::size_t>(dof)])];
+    const double creeping =
+        std::max(least_creeping, creeping_of_noise * member_.path->scatter()[dof]);
     const double sign = std::tanh(speed / creeping);
     return (joint.damping + member_.state->viscous[dof]) * speed +
            (joint.friction + member_.state->coulomb[dof]) * sign;
