@@ -214,8 +214,9 @@ void arm_joint(std::ostringstream& out, const char* name, bool slides, double st
         << text(stiffness) << "' damping='" << text(0.01 * stiffness) << "'/>\n";
 }
 
-// What touches. A soft one gives way by force over stiffness, whichever way it is pushed; its own
-// contact is the harder for it, since it cannot be lost and found again with a pad behind it.
+// What touches. A soft one gives way by force over stiffness, whichever way it is pushed. Its own
+// contact can be harder, since it is not lost and found again with a pad behind it; by its priority
+// it is so whatever the stem says.
 void fingertip(const Setting& s, std::ostringstream& out) {
   const std::string shape = "type='capsule' size='" + text(finger_radius) + "' fromto='0 0 0 " +
                             text(finger_length) + " 0 0'/>\n";
@@ -229,7 +230,7 @@ void fingertip(const Setting& s, std::ostringstream& out) {
     out << "<joint name='pad " << axis << "' type='slide' axis='" << axis << "' stiffness='"
         << text(k) << "' damping='" << text(pad_damping_time * k) << "' armature='"
         << text(pad_inertia) << "'/>\n";
-  out << "<geom class='finger' solimp='0.9 0.9 0.001' " << shape << "</body>\n";
+  out << "<geom class='finger' priority='1' solimp='0.9 0.9 0.001' " << shape << "</body>\n";
 }
 
 void arm(const Setting& s, const Held* held, std::ostringstream& out) {
