@@ -230,7 +230,7 @@ void fingertip(const Setting& s, std::ostringstream& out) {
     out << "<joint name='pad " << axis << "' type='slide' axis='" << axis << "' stiffness='"
         << text(k) << "' damping='" << text(pad_damping_time * k) << "' armature='"
         << text(pad_inertia) << "'/>\n";
-  out << "<geom class='finger' priority='1' solimp='0.9 0.9 0.001' " << shape << "</body>\n";
+  out << "<geom class='finger' priority='1' solimp='0.97 0.97 0.001' " << shape << "</body>\n";
 }
 
 void arm(const Setting& s, const Held* held, std::ostringstream& out) {

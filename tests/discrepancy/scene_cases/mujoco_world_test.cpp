@@ -43,11 +43,11 @@ TEST(MujocoWorld, ASoftContactGivesWayByForceOverStiffness) {
     const Drive drive = drives_of(setting).front();
     const auto run = simulate(setting, drive);
     const std::size_t k = run.step(standing);
-    // The finger's axis as it would be were it hard, and the stem's where it is pushed.
+    // The finger's axis as it would be were it hard, and the stem's, which is straight above it.
     const Vec3 q = run.joints[k];
     const Vec3 along(std::cos(q[0] + q[1]), std::sin(q[0] + q[1]), 0.0);
     const std::vector<Vec3>& stem = run.markers[k];
-    Vec3 normal = along.cross(stem[2] - stem[0]).normalized();
+    Vec3 normal = along.cross(stem[2] - stem[1]).normalized();
     const Vec3 force = touch(run, standing).first;
     if (normal.dot(force) > 0.0) normal = -normal;
     const double apart = std::abs(normal.dot(stem[1] - hand_of(q)));
