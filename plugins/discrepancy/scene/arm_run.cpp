@@ -1,5 +1,6 @@
 #include "pedicel/discrepancy/scene/arm_run.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pedicel/discrepancy/scene/state_changes.h"
@@ -21,6 +22,19 @@ robot::Trajectory commands_of(const SceneTrial& trial, const Arm& arm) {
     rows.push_back(q);
   }
   return {trial.commands.time, rows};
+}
+
+// By differences of the positions. A step's own velocity is that of its middle: taken at its end,
+// the spline between two steps would swing by three times the acceleration.
+std::vector<Eigen::VectorXd> velocities_of(const std::vector<Eigen::VectorXd>& positions,
+                                           double dt) {
+  std::vector<Eigen::VectorXd> all = {Eigen::VectorXd::Zero(positions.front().size())};
+  for (std::size_t k = 1; k < positions.size(); ++k) {
+    const std::size_t next = std::min(k + 1, positions.size() - 1);
+    all.emplace_back((positions[next] - positions[k - 1]) /
+                     (dt * static_cast<double>(next - k + 1)));
+  }
+  return all;
 }
 
 }  // namespace
@@ -45,7 +59,7 @@ JointPath run_arm(const SceneExperiment& experiment, const SceneTrial& trial,
   robot.reset(q, qd);
   const int steps = static_cast<int>(std::ceil(until / dt - 1.0e-9));
   std::vector<double> time = {0.0};
-  std::vector<Eigen::VectorXd> positions = {q}, velocities = {qd};
+  std::vector<Eigen::VectorXd> positions = {q};
   Eigen::VectorXd lagged = q, lagged_speed = qd;
   const double lag = state.tracking_lag;
   const double kept = lag > 0.0 ? std::exp(-dt / lag) : 0.0;
@@ -61,9 +75,8 @@ JointPath run_arm(const SceneExperiment& experiment, const SceneTrial& trial,
     robot.end_step();
     time.push_back(k * dt);
     positions.push_back(robot.positions());
-    velocities.push_back(robot.velocities());
   }
-  return JointPath::through(std::move(time), positions, velocities);
+  return JointPath::through(std::move(time), positions, velocities_of(positions, dt));
 }
 
 }  // namespace pedicel::discrepancy

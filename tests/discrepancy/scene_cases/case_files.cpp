@@ -12,6 +12,7 @@ namespace pedicel::scene_case {
 namespace {
 
 constexpr double joint_std = 2.0e-5, position_std = 3.0e-4, force_std = 0.03, moment_std = 2.0e-3;
+constexpr double torque_std = 0.05;   // N m or N
 constexpr double pixel_std = 0.4;     // px
 constexpr double focal = 900.0;       // px
 constexpr double joint_rate = 250.0;  // Hz
@@ -178,11 +179,11 @@ std::string experiment(const Setting& s, const std::vector<Drive>& drives) {
           ", position_std: " + list({position_std}) +
           (s.camera ? ", pixel_std: " + list({pixel_std}) : "") +
           ", force_std: " + list({force_std}) + ", moment_std: " + list({moment_std}) +
-          "}\ntrials:\n";
+          (s.torques ? ", torque_std: " + list({torque_std}) : "") + "}\ntrials:\n";
   for (const Drive& drive : drives)
     text += "  - {name: " + drive.name + ", folder: " + drive.name +
             (s.truss ? drive.check ? ", use: check" : ", use: fit" : "") +
-            ", robot: {follows: joints}}\n";
+            ", robot: {follows: " + (s.commands ? "commands" : "joints") + "}}\n";
   return text;
 }
 
@@ -229,7 +230,7 @@ class Table {
   bool first_ = true;
 };
 
-/// One trial's tables. Rows of a wrench are means over half a sample to either side.
+/// One trial's tables. Rows of wrenches and torques are means over half a sample to either side.
 class Tables {
  public:
   Tables(const Setting& s, const Drive& drive, const Run& run, const std::filesystem::path& folder)
@@ -237,6 +238,8 @@ class Tables {
 
   void write_all(std::uint64_t seed) {
     write_joints(seed);
+    if (s_.commands) write_commands();
+    if (s_.torques) write_torques(seed + 4);
     if (!s_.unseen) write_markers(seed + 1);
     write_wrench(seed + 2);
     if (s_.camera) write_pixels(seed + 3);
@@ -264,6 +267,31 @@ class Tables {
       table.end();
     }
     write(folder_ / "joints.csv", table.text());
+  }
+
+  // What the controller was told is known to every digit.
+  void write_commands() {
+    Table table("shoulder,elbow,lift", 0);
+    for (int r = 0; r <= static_cast<int>(drive_.duration * joint_rate); ++r) {
+      const double t = r / joint_rate;
+      table.row(t);
+      const Vec3 q = drive_.at(t);
+      for (int j = 0; j < 3; ++j) table.value(q[j], 0.0);
+      table.end();
+    }
+    write(folder_ / "commands.csv", table.text());
+  }
+
+  void write_torques(std::uint64_t seed) {
+    Table table("shoulder,elbow,lift", seed);
+    for (int r = 0; r <= static_cast<int>(drive_.duration * joint_rate); ++r) {
+      const double t = r / joint_rate;
+      table.row(t);
+      const Vec3 mean = run_.mean_effort(t, joint_rate);
+      for (int j = 0; j < 3; ++j) table.value(mean[j], torque_std);
+      table.end();
+    }
+    write(folder_ / "torques.csv", table.text());
   }
 
   void write_markers(std::uint64_t seed) {

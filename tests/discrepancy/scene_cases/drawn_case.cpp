@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "discrepancy/scene_cases/draw.h"
+#include "discrepancy/scene_cases/harvest_case.h"
 
 namespace pedicel::scene_case {
 
@@ -44,6 +45,19 @@ Hidden draw_hidden(const std::string& name, const Setting& s, Draw& draw) {
   if (name == "wrench_bias")
     return {name, {{"force", draw.vector(0.05, 0.3)}, {"moment", draw.vector(0.004, 0.02)}}};
   if (name == "wrench_gain") return {name, {{"gain", {draw.factor(1.06, 1.2)}}}};
+  // What a finger bears is 0.5 to 1 N: it gives way by half a millimetre to some.
+  if (name == "contact_compliance") return {name, {{"stiffness", {draw.size(150.0, 1000.0)}}}};
+  if (name == "tracking_lag") return {name, {{"time", {draw.size(0.01, 0.05)}}}};
+  if (name == "joint_friction") {
+    // The lift stands still in these trials.
+    std::vector<double> coulomb(3, 0.0), viscous(3, 0.0);
+    const auto joint = static_cast<std::size_t>(draw.between(0.0, 2.0));
+    coulomb[joint] = draw.size(0.08, 0.4);
+    viscous[joint] = draw.size(0.1, 0.5);
+    return {name, {{"coulomb", coulomb}, {"viscous", viscous}}};
+  }
+  if (name == "fruit_mass") return {name, {{"factor", {draw.factor(1.2, 1.6)}}}};
+  if (name == "detachment_threshold") return {name, {{"factor", {draw.factor(1.15, 1.5)}}}};
   if (name == "youngs_modulus") return {name, {{"factor", {draw.factor(1.1, 1.3)}}}};
   if (name == "damping_time") return {name, {{"factor", {draw.factor(1.8, 2.6)}}}};
   if (name == "camera_pose")
@@ -81,6 +95,7 @@ struct Stratum {
   const char* kind;
   Names names;
   int count;
+  bool commands = false, torques = false, harvest = false;
 };
 const std::vector<Stratum>& strata() {
   static const std::vector<Stratum> all = {
@@ -112,28 +127,49 @@ const std::vector<Stratum>& strata() {
   return all;
 }
 
-}  // namespace
+// Of records and effects that the hundred do not have.
+const std::vector<Stratum>& later_strata() {
+  static const std::vector<Stratum> all = {
+      {.kind = "effect", .names = {"contact_compliance"}, .count = 3},
+      {.kind = "null", .names = {}, .count = 2, .commands = true},
+      {.kind = "effect", .names = {"tracking_lag"}, .count = 3, .commands = true},
+      {.kind = "null", .names = {}, .count = 2, .torques = true},
+      {.kind = "effect", .names = {"joint_friction"}, .count = 3, .torques = true},
+      {.kind = "null", .names = {}, .count = 2, .harvest = true},
+      {.kind = "effect", .names = {"fruit_mass"}, .count = 3, .harvest = true},
+      {.kind = "effect", .names = {"detachment_threshold"}, .count = 3, .harvest = true},
+  };
+  return all;
+}
 
-std::vector<Order> orders() {
-  // Each case has a place between 0 and 1 in its stratum; all are taken in this order, so that a
-  // bench that was cut short has seen a share of everything.
+// Each case has a place between 0 and 1 in its stratum; all are taken in this order, so that a
+// bench that was cut short has seen a share of everything.
+std::vector<Order> mixed(const std::vector<Stratum>& strata) {
   std::multimap<double, Order> placed;
   int stratum = 0;
-  for (const Stratum& one : strata()) {
+  for (const Stratum& one : strata) {
     for (int i = 0; i < one.count; ++i) {
       const std::string kind = one.kind;
       // Every third case has another modulus beside what it hides.
-      const bool off = kind != "null" && one.names.front() != "youngs_modulus" &&
+      const bool off = kind != "null" && !one.harvest && one.names.front() != "youngs_modulus" &&
                        one.names.front() != "damping_time" && (i + stratum) % 3 == 2;
-      placed.emplace((i + 0.5) / one.count + 1.0e-4 * stratum, Order{0, kind, one.names, off});
+      placed.emplace((i + 0.5) / one.count + 1.0e-4 * stratum,
+                     Order{0, kind, one.names, off, one.commands, one.torques, one.harvest});
     }
     ++stratum;
   }
   std::vector<Order> all;
-  for (auto& [place, order] : placed) {
-    all.push_back(order);
-    all.back().number = static_cast<int>(all.size()) - 1;
-  }
+  for (auto& [place, order] : placed) all.push_back(order);
+  return all;
+}
+
+}  // namespace
+
+std::vector<Order> orders() {
+  std::vector<Order> all = mixed(strata());
+  // These stand behind: numbers of cases before them stay.
+  for (const Order& order : mixed(later_strata())) all.push_back(order);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].number = static_cast<int>(i);
   return all;
 }
 
@@ -141,6 +177,9 @@ Setting drawn(const Order& order, std::uint64_t seed) {
   Setting setting;
   setting.seed = seed * 1000 + static_cast<std::uint64_t>(order.number);
   draw(setting);
+  if (order.harvest) make_harvest(setting);
+  setting.commands = order.commands;
+  setting.torques = order.torques;
   setting.camera = order.number % 2 == 1 || std::ranges::any_of(order.names, is_of_camera);
   Draw draw_of(setting.seed * 104729 + 31);
   for (const std::string& name : order.names)

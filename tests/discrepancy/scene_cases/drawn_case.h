@@ -15,9 +15,12 @@ struct Order {
   std::string kind;                ///< null, effect, pair, outside
   std::vector<std::string> names;  ///< effects, or "post", or "string"
   bool off = false;                ///< the file's modulus is wrong, too
+  /// What is recorded beside markers and wrench, and of what.
+  bool commands = false, torques = false, harvest = false;
 };
 
-/// The hundred cases. Any first few of them have a share of each kind and name.
+/// The hundred cases, of which any first few have a share of each kind and name, and behind them
+/// those of other records and of effects that came later.
 std::vector<Order> orders();
 
 /// A setting with all of an order's things hidden, each at a size that `seed` draws.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pedicel::scene_case {
@@ -30,6 +31,39 @@ TEST(DrawnCase, AFingerPushesTheStemAgainstEveryPost) {
       ++posts;
     }
   EXPECT_EQ(posts, 20 * 7);
+}
+
+// Figures are quoted by these numbers.
+TEST(DrawnCase, TheFirstHundredStay) {
+  const std::vector<Order> all = orders();
+  ASSERT_GT(all.size(), 100U);
+  int nothing = 0, outside = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].number, static_cast<int>(i));
+    if (i >= 100) continue;
+    nothing += all[i].kind == "null";
+    outside += all[i].kind == "outside";
+    EXPECT_FALSE(all[i].commands || all[i].torques || all[i].harvest) << i;
+  }
+  EXPECT_EQ(nothing, 30);
+  EXPECT_EQ(outside, 14);
+  EXPECT_EQ(all[13].names, std::vector<std::string>{"payload"});
+  EXPECT_NEAR(hidden_number(drawn(all[13], 1), "payload", "mass", 0.0), 0.05641128817, 1.0e-11);
+}
+
+TEST(DrawnCase, EachLaterRecordHasNullCasesAndEffects) {
+  const std::vector<Order> all = orders();
+  const auto count = [&](const auto& wanted) {
+    return std::count_if(all.begin() + 100, all.end(), wanted);
+  };
+  for (bool Order::*record : {&Order::commands, &Order::torques, &Order::harvest}) {
+    EXPECT_GE(count([&](const Order& o) { return o.*record && o.kind == "null"; }), 2);
+    EXPECT_GE(count([&](const Order& o) { return o.*record && o.kind == "effect"; }), 3);
+  }
+  for (const char* name : {"contact_compliance", "tracking_lag", "joint_friction", "fruit_mass",
+                           "detachment_threshold"})
+    EXPECT_EQ(count([&](const Order& o) { return o.names == std::vector<std::string>{name}; }), 3)
+        << name;
 }
 
 }  // namespace

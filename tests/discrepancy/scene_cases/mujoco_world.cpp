@@ -3,12 +3,14 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
 
+#include "discrepancy/scene_cases/joint_way.h"
 #include "discrepancy/scene_cases/scene_case.h"
 
 namespace pedicel::scene_case {
@@ -20,6 +22,9 @@ constexpr double truss_segment = 0.005;     // m: between two clamps 6 segments 
 constexpr int stretching = 4;               // segments to one that gives along the stem
 constexpr double immovable = 1.0e4;         // kg m2 or kg, of driven joints
 constexpr double string_stiffness = 150.0;  // N/m
+// kg, of a soft pad: it is felt by what touches it alone; and s, its damping over its stiffness.
+constexpr double pad_inertia = 0.005, pad_damping_time = 0.002;
+constexpr double resting_speed = 1.0e-6;  // rad/s or m/s: a motor below it bears its load alone
 constexpr double pi = 3.14159265358979323846;
 // s. The contact of a stem that swings free and slides along the finger chatters: by 0.2 N with the
 // longer step, by 0.05 N with half of it, and not with the shorter one.
@@ -216,6 +221,25 @@ void arm_joint(std::ostringstream& out, const char* name, bool slides, double st
         << text(stiffness) << "' damping='" << text(0.01 * stiffness) << "'/>\n";
 }
 
+// What touches. A soft one gives way by force over stiffness, whichever way it is pushed. Its own
+// contact can be harder, since it is not lost and found again with a pad behind it; by its priority
+// it is so whatever the stem says.
+void fingertip(const Setting& s, std::ostringstream& out) {
+  const std::string shape = "type='capsule' size='" + text(finger_radius) + "' fromto='0 0 0 " +
+                            text(finger_length) + " 0 0'/>\n";
+  if (!is_hidden(s, "contact_compliance")) {
+    out << "<geom class='finger' " << shape;
+    return;
+  }
+  const double k = hidden_number(s, "contact_compliance", "stiffness", 0.0);
+  out << "<body name='pad'><inertial pos='0 0 0' mass='1e-6' diaginertia='1e-9 1e-9 1e-9'/>\n";
+  for (const char* axis : {"1 0 0", "0 1 0", "0 0 1"})
+    out << "<joint name='pad " << axis << "' type='slide' axis='" << axis << "' stiffness='"
+        << text(k) << "' damping='" << text(pad_damping_time * k) << "' armature='"
+        << text(pad_inertia) << "'/>\n";
+  out << "<geom class='finger' priority='1' solimp='0.97 0.97 0.001' " << shape << "</body>\n";
+}
+
 void arm(const Setting& s, const Held* held, std::ostringstream& out) {
   const double k = hidden_number(s, "reaction", "joint_stiffness", 0.0);
   Vec3 offset = Vec3::Zero(), turn = Vec3::Zero();
@@ -238,9 +262,9 @@ void arm(const Setting& s, const Held* held, std::ostringstream& out) {
       << "' diaginertia='0.00008 0.00008 0.00008'/>\n<body name='finger' pos='"
       << text(Vec3(0.03, 0, 0) + offset) << "' axisangle='" << text(axis) << " " << text(angle)
       << "'>\n<inertial pos='" << text(0.5 * finger_length) << " 0 0' mass='" << text(finger_mass)
-      << "' diaginertia='0.000002 0.00009 0.00009'/>\n<geom class='finger' type='capsule' size='"
-      << text(finger_radius) << "' fromto='0 0 0 " << text(finger_length)
-      << " 0 0'/>\n<site name='nail' pos='" << text(nail) << "'/>\n";
+      << "' diaginertia='0.000002 0.00009 0.00009'/>\n";
+  fingertip(s, out);
+  out << "<site name='nail' pos='" << text(nail) << "'/>\n";
   if (is_hidden(s, "payload")) {
     Vec3 centre;
     for (int a = 0; a < 3; ++a)
@@ -325,10 +349,16 @@ std::map<std::string, double> rest_of(Setting s) {
   return rest;
 }
 
+/// A link and all beyond it, with N s and N m s about the world's origin at the last step.
+struct Beyond {
+  std::vector<int> bodies;
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+
 class World {
  public:
   World(const Setting& s, const Drive& drive)
-      : s_(s), drive_(drive), dt_(step_of(s)), rest_(rest_of(s)) {
+      : s_(s), drive_(drive), dt_(step_of(s)), way_(s, drive, dt_), rest_(rest_of(s)) {
     load(nullptr);
   }
 
@@ -353,6 +383,7 @@ class World {
       mj_Euler(model_.get(), data_.get());
     }
     out.wrench.front() = out.wrench[1];
+    if (s_.torques) out.efforts.front() = out.efforts[1];
     return out;
   }
 
@@ -363,17 +394,25 @@ class World {
     const auto id = [&](int kind, const std::string& name) {
       return mj_name2id(model_.get(), kind, name.c_str());
     };
-    driven_.clear(), giving_.clear(), beyond_.clear(), sites_.clear(), points_.clear();
+    driven_.clear(), giving_.clear(), sites_.clear(), points_.clear();
     for (const std::string name : {"shoulder", "elbow", "lift"}) {
+      motors_[driven_.size()] = id(mjOBJ_JOINT, name);
       driven_.push_back(model_->jnt_dofadr[id(mjOBJ_JOINT, name)]);
       const int give = id(mjOBJ_JOINT, name + "_give");
       giving_.push_back(give < 0 ? -1 : model_->jnt_dofadr[give]);
     }
-    for (const std::string name : {"hand", "finger", "payload"})
-      if (const int body = id(mjOBJ_BODY, name); body >= 0) beyond_.push_back(body);
+    std::vector<int> links;
+    for (const std::string name : {"hand", "finger", "pad", "payload"})
+      if (const int body = id(mjOBJ_BODY, name); body >= 0) links.push_back(body);
     finger_ = id(mjOBJ_BODY, "finger");
     fruit_ = id(mjOBJ_BODY, "fruit");
-    if (held) beyond_.push_back(fruit_);
+    if (held) links.push_back(fruit_);
+    beyond_hand_ = {links};
+    beyond_motor_ = {};
+    for (std::size_t j = 3; j-- > 0 && s_.torques;) {
+      links.push_back(model_->jnt_bodyid[motors_[j]]);
+      beyond_motor_[j] = {links};
+    }
     first_of_arm_ = id(mjOBJ_BODY, "upper");
     hand_ = id(mjOBJ_BODY, "hand");
     for (std::size_t m = 0; m < markers_of(s_).size(); ++m)
@@ -444,12 +483,13 @@ class World {
     mj_forward(model_.get(), data_.get());
     push();
     mj_forward(model_.get(), data_.get());
-    momentum();
+    momentum(beyond_hand_);
+    for (Beyond& beyond : beyond_motor_) momentum(beyond);
   }
 
-  // Where the links are told to be: readings and the encoders' zeros.
+  // Where the links are: readings and the encoders' zeros.
   Vec3 told(double t) const {
-    Vec3 q = drive_.at(t);
+    Vec3 q = way_.at(t);
     for (int j = 0; j < 3; ++j)
       q[j] += hidden_number(s_, "joint_offset", "offset", 0.0, static_cast<std::size_t>(j));
     return q;
@@ -520,10 +560,9 @@ class World {
     mj_forward(model_.get(), data_.get());
   }
 
-  // N s and N m s about the world's origin, of the hand and all beyond it.
-  void momentum() {
-    linear_ = angular_ = Vec3::Zero();
-    for (const int body : beyond_) {
+  void momentum(Beyond& beyond) const {
+    beyond.linear = beyond.angular = Vec3::Zero();
+    for (const int body : beyond.bodies) {
       mjtNum v[6];
       mj_objectVelocity(model_.get(), data_.get(), mjOBJ_BODY, body, v, 0);
       // MuJoCo's velocity of a body is that of its centre of mass.
@@ -531,9 +570,9 @@ class World {
       const Eigen::Matrix3d axes =
           Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->ximat + 9 * body);
       const Vec3 inertia = of(model_->body_inertia + 3 * body);
-      linear_ += model_->body_mass[body] * velocity;
-      angular_ += com.cross(model_->body_mass[body] * velocity) +
-                  axes * inertia.asDiagonal() * axes.transpose() * w;
+      beyond.linear += model_->body_mass[body] * velocity;
+      beyond.angular += com.cross(model_->body_mass[body] * velocity) +
+                        axes * inertia.asDiagonal() * axes.transpose() * w;
     }
   }
 
@@ -555,30 +594,57 @@ class World {
   }
 
   void note(Run& out, bool moved) {
-    out.joints.push_back(drive_.at(time_));
+    out.joints.push_back(way_.at(time_));
     out.markers.push_back(places(sites_));
     out.points.push_back(places(points_));
     out.pushed.push_back(pushed());
     note_fruit(moved);
-    const Vec3 before = linear_, turning = angular_;
-    momentum();
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-    if (moved) force = -(linear_ - before) / dt_, moment = -(angular_ - turning) / dt_;
-    for (const int body : beyond_) {
-      const Vec3 weight = model_->body_mass[body] * Vec3(0, 0, -9.81);
-      force += weight;
-      moment += of(data_->xipos + 3 * body).cross(weight);
-    }
-    add_contacts(beyond_, force, moment);
-    const auto [held, turned] = hold();
-    force += held;
-    moment += of(data_->xpos + 3 * std::max(0, fruit_)).cross(held) + turned;
+    const auto [force, moment] = exerted(beyond_hand_, moved);
     const Eigen::Matrix3d axes =
         Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data_->xmat + 9 * hand_);
     Eigen::Matrix<double, 6, 1> wrench;
     wrench << axes.transpose() * force,
         axes.transpose() * (moment - of(data_->xpos + 3 * hand_).cross(force));
     out.wrench.push_back(wrench);
+    if (s_.torques) out.efforts.push_back(efforts(moved));
+  }
+
+  // N, N m about the world's origin: of links on what carries them, weight, inertia and all that
+  // touches or holds them.
+  std::pair<Vec3, Vec3> exerted(Beyond& beyond, bool moved) const {
+    const Vec3 before = beyond.linear, turning = beyond.angular;
+    momentum(beyond);
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    if (moved) force = -(beyond.linear - before) / dt_, moment = -(beyond.angular - turning) / dt_;
+    for (const int body : beyond.bodies) {
+      const Vec3 weight = model_->body_mass[body] * Vec3(0, 0, -9.81);
+      force += weight;
+      moment += of(data_->xipos + 3 * body).cross(weight);
+    }
+    add_contacts(beyond.bodies, force, moment);
+    const auto [held, turned] = hold();
+    force += held;
+    moment += of(data_->xpos + 3 * std::max(0, fruit_)).cross(held) + turned;
+    return {force, moment};
+  }
+
+  // What motors bear of all beyond them, and their joint's friction: Coulomb's, and none at rest.
+  Vec3 efforts(bool moved) {
+    const Vec3 speed = (way_.at(time_ + dt_) - way_.at(time_ - dt_)) / (2.0 * dt_);
+    Vec3 all;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto [force, moment] = exerted(beyond_motor_[j], moved);
+      const int joint = motors_[j];
+      const Vec3 axis = of(data_->xaxis + 3 * joint), place = of(data_->xanchor + 3 * joint);
+      const bool slides = model_->jnt_type[joint] == mjJNT_SLIDE;
+      const double v = speed[static_cast<long>(j)];
+      const double along = axis.dot(slides ? force : Vec3(moment - place.cross(force)));
+      const double dry = hidden_number(s_, "joint_friction", "coulomb", 0.0, j);
+      all[static_cast<long>(j)] = -along +
+                                  hidden_number(s_, "joint_friction", "viscous", 0.0, j) * v +
+                                  (std::abs(v) < resting_speed ? 0.0 : std::copysign(dry, v));
+    }
+    return all;
   }
 
   // m, along the stem, of the middle of all pushes of the arm; NaN without any.
@@ -649,14 +715,17 @@ class World {
   const Setting& s_;
   const Drive& drive_;
   const double dt_;  // s
+  JointWay way_;
   Model model_;
   Data data_;
   double time_ = 0.0;
   std::map<std::string, double> rest_;  // rad or m, by joint
-  std::vector<int> driven_, giving_, beyond_, sites_, points_;
+  std::vector<int> driven_, giving_, sites_, points_;
+  std::array<int, 3> motors_{};  // joints
   int hand_ = 0, finger_ = 0, fruit_ = -1, first_of_arm_ = 0, tied_ = -1;
   bool is_held_ = false, is_off_ = false;
-  Vec3 linear_ = Vec3::Zero(), angular_ = Vec3::Zero();
+  Beyond beyond_hand_;
+  std::array<Beyond, 3> beyond_motor_;
   Vec3 fruit_velocity_ = Vec3::Zero(), fruit_acceleration_ = Vec3::Zero();
 };
 

@@ -128,9 +128,10 @@ int main(int argc, char** argv) {
   CLI::App app{"Diagnoses measured scenes with something hidden and scores the verdicts."};
   Arguments a;
   app.add_option("--seed", a.seed, "what sizes and noise are drawn from")->capture_default_str();
-  app.add_option("--first", a.first, "number of the first case")->check(CLI::Range(0, 99));
-  app.add_option("--count", a.count, "how many cases")->check(CLI::Range(1, 100));
-  app.add_option("--case", a.cases, "these numbers only")->check(CLI::Range(0, 99));
+  const int all = static_cast<int>(orders().size());
+  app.add_option("--first", a.first, "number of the first case")->check(CLI::Range(0, all - 1));
+  app.add_option("--count", a.count, "how many cases")->check(CLI::Range(1, all));
+  app.add_option("--case", a.cases, "these numbers only")->check(CLI::Range(0, all - 1));
   app.add_option("--kind", a.kind, "cases of this kind only")
       ->check(CLI::IsMember({"null", "effect", "pair", "outside"}));
   app.add_option("--threads", a.threads, "cases side by side")->check(CLI::Range(1, 1024));

@@ -77,11 +77,25 @@ std::size_t Run::step(double t) const {
   return std::min(joints.size() - 1, static_cast<std::size_t>(std::max(0.0, std::round(t / dt))));
 }
 
-Eigen::Matrix<double, 6, 1> Run::mean_wrench(double t, double rate) const {
-  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
-  const std::size_t first = step(t - 0.5 / rate), last = step(t + 0.5 / rate);
-  for (std::size_t k = first; k <= last; ++k) sum += wrench[k];
+namespace {
+
+// Over half a sample to either side.
+template <class Row>
+Row mean_of(const Run& run, const std::vector<Row>& rows, double t, double rate) {
+  Row sum = Row::Zero();
+  const std::size_t first = run.step(t - 0.5 / rate), last = run.step(t + 0.5 / rate);
+  for (std::size_t k = first; k <= last; ++k) sum += rows[k];
   return sum / static_cast<double>(last - first + 1);
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 6, 1> Run::mean_wrench(double t, double rate) const {
+  return mean_of(*this, wrench, t, rate);
+}
+
+Vec3 Run::mean_effort(double t, double rate) const {
+  return mean_of(*this, efforts, t, rate);
 }
 
 std::vector<Drive> drives_of(const Setting& s) {

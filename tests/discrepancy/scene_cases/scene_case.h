@@ -40,6 +40,9 @@ struct Setting {
   int trials = 2;          ///< 1 to 4: push, from the other side, higher, slide
   bool camera = false;     ///< a camera beside the plant has seen the markers
   bool unseen = false;     ///< there are no markers: the robot's own sensors are all
+  /// The arm's controller is told where to go; what its encoders read is one more observation.
+  bool commands = false;
+  bool torques = false;  ///< the motors' torques were measured
   std::vector<Hidden> hidden;
 
   // Drawn from the seed.
@@ -89,8 +92,9 @@ struct Run {
   std::vector<Vec3> joints;                         ///< of the encoders, exact
   std::vector<std::vector<Vec3>> markers;           ///< m, W: of the plant, then of the finger
   std::vector<Eigen::Matrix<double, 6, 1>> wrench;  ///< N, N m: of the hand, its frame
-  std::vector<std::vector<Vec3>> points;            ///< m, W: of the plant, points_of()
-  std::optional<double> came_off;                   ///< s, the fruit
+  std::vector<Vec3> efforts;              ///< N m, N m, N: of the motors, where they are measured
+  std::vector<std::vector<Vec3>> points;  ///< m, W: of the plant, points_of()
+  std::optional<double> came_off;         ///< s, the fruit
   /// m, along the stem from its foot: where the finger pushes it; NaN where it does not.
   std::vector<double> pushed;
   Outside outside;
@@ -98,6 +102,7 @@ struct Run {
   std::size_t step(double t) const;  ///< the one nearest to a time
   /// What a sensor reports that takes means over half a sample to either side; `rate` in Hz.
   Eigen::Matrix<double, 6, 1> mean_wrench(double t, double rate) const;
+  Vec3 mean_effort(double t, double rate) const;
 };
 Run simulate(const Setting& setting, const Drive& drive);
 

@@ -1,5 +1,5 @@
 // scene_case --out FOLDER [--seed N] [--trials N] [--hide "NAME KEY=V[,V,V] ..."]... [--bench N]
-//            [--harvest]
+//            [--harvest] [--commands] [--torques]
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -16,11 +16,13 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "folder to write")->required();
   app.add_option("--seed", setting.seed, "of sizes and noise");
   app.add_option("--trials", setting.trials, "how many")->check(CLI::Range(1, 4));
+  app.add_flag("--commands", setting.commands, "the arm's controller is told where to go");
+  app.add_flag("--torques", setting.torques, "the motors' torques are measured");
   auto* harvests = app.add_flag("--harvest", harvest, "the finger takes a fruit and pulls it off");
   auto* hidden = app.add_option("--hide", hide, "\"NAME KEY=V[,V,V]\": an effect, post or string")
                      ->allow_extra_args(false);
   app.add_option("--bench", bench, "the case of this number of `scene_bench --seed N`")
-      ->check(CLI::Range(0, 99))
+      ->check(CLI::Range(0, static_cast<int>(pedicel::scene_case::orders().size()) - 1))
       ->excludes(hidden)
       ->excludes(harvests);
   CLI11_PARSE(app, argc, argv);

@@ -61,8 +61,8 @@ void count_numbers(const Setting& setting, const Verdict& verdict, SceneScore& s
         if (found == cause.parameters.end()) continue;
         Names joints = {"shoulder", "elbow", "lift"};
         for (std::size_t i = 0; i < values.size(); ++i) {
-          // A case writes an encoder's zero for all joints; the verdict names one.
-          const bool one_joint = hidden.name == "joint_offset";
+          // A case writes an encoder's zero, or friction, for all joints; the verdict names one.
+          const bool one_joint = hidden.name == "joint_offset" || hidden.name == "joint_friction";
           if (one_joint && (!cause.words.contains("joint") || cause.words.at("joint") != joints[i]))
             continue;
           const std::size_t at = one_joint ? 0 : i;

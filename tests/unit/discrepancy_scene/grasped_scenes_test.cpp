@@ -84,5 +84,23 @@ TEST_F(CommandedArm, ThatLagsIsNamed) {
   EXPECT_NEAR(lag->parameters.at("time")[0].value, 0.05, 0.005) << found.text;
 }
 
+// Rows of instruments lie between the steps of the arm.
+TEST_F(CommandedArm, ItsTorquesAreThoseOfItsMotionBetweenStepsToo) {
+  at_.gap = "0.5";  // it touches nothing
+  at_.write_all();
+  for (const auto& [name, text] : more_) at_.write(name, text);
+  const SceneReadings told = readings_of(at_.read(), {}, {0.02, 7.0e-4, 0.05, 1.0e-5});
+  // kg m2, of the arm and the finger about the joint; N m s and N m, of its URDF.
+  const double inertia = 0.004 + 0.3 * 0.2 * 0.2 + 2.0e-6 + 0.05 * 0.4 * 0.4;
+  const double damping = 0.5, friction = 0.1, e = 1.0e-3;
+  for (int row = 20; row <= 80; ++row) {
+    const double t = 0.01 * row, before = at_.joint(t - e), after = at_.joint(t + e);
+    const double speed = (after - before) / (2.0 * e);
+    const double acceleration = (after - 2.0 * at_.joint(t) + before) / (e * e);
+    EXPECT_NEAR(told.torques(row, 0), inertia * acceleration + damping * speed + friction, 0.01)
+        << t << " s";
+  }
+}
+
 }  // namespace
 }  // namespace pedicel::discrepancy

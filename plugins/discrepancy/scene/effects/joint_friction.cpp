@@ -47,9 +47,16 @@ SceneEffectDefinition define_joint_friction() {
       return trial.torques.size() > 0 || trial.follows_commands;
     });
     if (!shows) return {};
-    return {effects::Start("joint_friction")
-                .signed_number("coulomb", 0.1, 0.1, 0.0, 50.0)
-                .signed_number("viscous", 0.1, 0.1, 0.0, 100.0)};
+    const auto with_numbers = [](effects::Start start) {
+      return start.signed_number("coulomb", 0.1, 0.1, 0.0, 50.0)
+          .signed_number("viscous", 0.1, 0.1, 0.0, 100.0);
+    };
+    // One joint is worn more often than all are by the same.
+    std::vector<effects::Start> starts;
+    for (const std::string& joint : joint_names(c.experiment.robot))
+      starts.push_back(with_numbers(effects::Start("joint_friction").word("joint", joint)));
+    starts.push_back(with_numbers(effects::Start("joint_friction")));
+    return starts;
   };
   d.tells_apart = "move one joint at a time, slowly and fast, both ways";
   return d;
