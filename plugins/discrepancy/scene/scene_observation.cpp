@@ -12,20 +12,8 @@ namespace pedicel::discrepancy {
 namespace {
 
 constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
-/// s, over which readings of joints are smoothed, and so their speeds are taken from.
-constexpr double smoothed = 0.16;
-/// rad/s or m/s, of the speeds of an arm that was simulated.
-constexpr double least_speed_error = 1.0e-5;
-/// 1: speeds of a joint that moves, over their error.
-constexpr double moving_speeds = 40.0;
-
-/// The sign of a speed, times the probability that the joint moves at all: as likely as not, were
-/// its speed unknown. A joint that stands has the small speeds that noise makes, of either sign.
-double direction(double speed, double error) {
-  const double deviations = speed / error;
-  const double moves = 1.0 / (1.0 + moving_speeds * std::exp(-0.5 * deviations * deviations));
-  return std::copysign(moves, speed);
-}
+/// rad/s or m/s: a joint's friction grows with tanh(speed / creeping), so that rest bears none.
+constexpr double creeping = 1.0e-2;
 
 using MotionRows = SceneMotion::Rows;
 
@@ -159,8 +147,7 @@ class Observer {
       }
       const JointPath::Point at = arm_at(member_, t);
       Eigen::VectorXd effort = dynamics.inverse(at.q, at.qd, at.qdd, experiment_.scene.gravity);
-      for (int d = 0; d < model.dofs(); ++d)
-        effort[d] += resistance(d, at.qd[d], speed_error(trial, d));
+      for (int d = 0; d < model.dofs(); ++d) effort[d] += resistance(d, at.qd[d]);
       effort -= load(t, half);
       for (std::size_t c = 0; c < trial.torque_columns.size(); ++c)
         out(s, static_cast<long>(c)) = effort[trial.torque_columns[c]];
@@ -217,21 +204,13 @@ class Observer {
     return p0 + u * u * (3.0 - 2.0 * u) * rise + at.length * u * w * (w * v0 - u * v1);
   }
 
-  // rad/s, of a joint's speed: that of a straight line through readings with noise.
-  double speed_error(const SceneTrial& trial, int dof) const {
-    if (member_.is_run) return least_speed_error;
-    const double noise = experiment_.noise.joint_std.value_or(member_.path->scatter()[dof]);
-    const double readings = smoothed / std::max(1.0e-6, 2.0 * half_sample(trial.joints.time));
-    return std::max(least_speed_error, noise * std::sqrt(12.0 / readings) / smoothed);
-  }
-
   // N m, what damping and friction of a joint take, the URDF's and the state's.
-  double resistance(int dof, double speed, double speed_error) const {
+  double resistance(int dof, double speed) const {
     const robot::RobotDescription& robot = member_.arm->description();
     const robot::Joint& joint =
         robot
             .joints[robot.joint(member_.arm->model().joint_names()[static_cast<std::size_t>(dof)])];
-    const double sign = direction(speed, speed_error);
+    const double sign = std::tanh(speed / creeping);
     return (joint.damping + member_.state->viscous[dof]) * speed +
            (joint.friction + member_.state->coulomb[dof]) * sign;
   }

@@ -23,7 +23,7 @@ constexpr int stretching = 4;               // segments to one that gives along 
 constexpr double immovable = 1.0e4;         // kg m2 or kg, of driven joints
 constexpr double string_stiffness = 150.0;  // N/m
 // kg, of a soft pad: it is felt by what touches it alone; and s, its damping over its stiffness.
-constexpr double pad_inertia = 0.005, pad_damping_time = 0.002;
+constexpr double pad_inertia = 0.02, pad_damping_time = 0.002;
 constexpr double resting_speed = 1.0e-6;  // rad/s or m/s: a motor below it bears its load alone
 constexpr double pi = 3.14159265358979323846;
 // s. The contact of a stem that swings free and slides along the finger chatters: by 0.2 N with the
@@ -221,9 +221,7 @@ void arm_joint(std::ostringstream& out, const char* name, bool slides, double st
         << text(stiffness) << "' damping='" << text(0.01 * stiffness) << "'/>\n";
 }
 
-// What touches. A soft one gives way by force over stiffness, whichever way it is pushed. Its own
-// contact can be harder, since it is not lost and found again with a pad behind it; by its priority
-// it is so whatever the stem says.
+// What touches. A soft one gives way by force over stiffness, whichever way it is pushed.
 void fingertip(const Setting& s, std::ostringstream& out) {
   const std::string shape = "type='capsule' size='" + text(finger_radius) + "' fromto='0 0 0 " +
                             text(finger_length) + " 0 0'/>\n";
@@ -237,7 +235,7 @@ void fingertip(const Setting& s, std::ostringstream& out) {
     out << "<joint name='pad " << axis << "' type='slide' axis='" << axis << "' stiffness='"
         << text(k) << "' damping='" << text(pad_damping_time * k) << "' armature='"
         << text(pad_inertia) << "'/>\n";
-  out << "<geom class='finger' priority='1' solimp='0.97 0.97 0.001' " << shape << "</body>\n";
+  out << "<geom class='finger' " << shape << "</body>\n";
 }
 
 void arm(const Setting& s, const Held* held, std::ostringstream& out) {
@@ -421,10 +419,28 @@ class World {
     for (std::size_t p = 0; p < points_of(s_).size(); ++p)
       points_.push_back(id(mjOBJ_SITE, "p" + std::to_string(p)));
     tied_ = id(mjOBJ_SITE, "tied");
+    soften();
     for (int j = 0; j < model_->njnt; ++j)
       if (const auto known = rest_.find(mj_id2name(model_.get(), mjOBJ_JOINT, j));
           known != rest_.end() && model_->jnt_bodyid[j] < first_of_arm_)
         model_->qpos_spring[model_->jnt_qposadr[j]] = known->second;
+  }
+
+  // The contact before the pad gives way by (1 - d) A t^2 for each newton at rest, with MuJoCo's
+  // impedance d, time t and inverse masses A: both together shall have the stiffness that is
+  // hidden.
+  void soften() {
+    const double k = hidden_number(s_, "contact_compliance", "stiffness", 0.0);
+    const int pad = mj_name2id(model_.get(), mjOBJ_BODY, "pad");
+    if (pad < 0) return;
+    const double length = s_.height / std::lround(s_.height / segment);
+    const std::string piece = "s" + std::to_string(std::lround(0.55 * s_.height / length));
+    const int pushed = mj_name2id(model_.get(), mjOBJ_BODY, piece.c_str());
+    const double inverse_mass =
+        model_->body_invweight0[2 * pad] + model_->body_invweight0[2 * pushed];
+    const double own = (1.0 - 0.3) * inverse_mass * 1.0e-6;  // m/N
+    for (int j = 0; j < model_->njnt; ++j)
+      if (model_->jnt_bodyid[j] == pad) model_->jnt_stiffness[j] = 1.0 / (1.0 / k - own);
   }
 
   // The finger's and the fruit's frames stay to each other as they are now.
