@@ -6,7 +6,7 @@
 #include "pedicel/app/plants/organ_contacts.h"
 #include "pedicel/app/run/place.h"
 #include "pedicel/app/run/scene_assets.h"
-#include "pedicel/cosserat/solver/stalk_load.h"
+#include "pedicel/cosserat/model/stalk_load.h"
 
 namespace pedicel::app {
 

@@ -6,7 +6,7 @@
 
 #include "pedicel/app/plants/plant_step.h"
 #include "pedicel/app/run/place.h"
-#include "pedicel/cosserat/solver/stalk_load.h"
+#include "pedicel/cosserat/model/stalk_load.h"
 
 namespace pedicel::app {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "pedicel/cosserat/solver/stalk_load.h"
+#include "pedicel/cosserat/model/stalk_load.h"
 
 namespace pedicel::cosserat {
 

@@ -24,6 +24,11 @@ double square(double x) {
   return x * x;
 }
 
+double excess_of(double cost, const SceneDataSet::Sum& sum) {
+  // A cost is half of a sum of squares.
+  return SceneDataSet::beyond_noise({2.0 * cost, sum.count});
+}
+
 // Effects of the baseline that left what the files say: beyond what their numbers are sure of, and
 // what a ruler says.
 std::vector<std::string> moved(const SceneFitResult& fit, const SceneSearchSettings& how) {
@@ -378,11 +383,6 @@ class Search {
                              [this](const SceneCandidate& one) { return score(one); });
   }
 
-  double excess_of(double cost, const SceneDataSet::Sum& sum) const {
-    // A cost is half of a sum of squares.
-    return SceneDataSet::beyond_noise({2.0 * cost, sum.count});
-  }
-
   void judge(SceneCandidate& candidate) {
     candidate.cost = cost_of(candidate.fit);
     candidate.excess = SceneDataSet::beyond_noise(candidate.fit.sum);
@@ -506,8 +506,7 @@ class Search {
       return false;
     tell("refitting the baseline with a finer mesh", 0.88);
     const FinerFit fine = options_.refit_finely(found_.baseline.model);
-    if (fine.excess > how_.floor ||
-        !holds_elsewhere(fine.check_excess, found_.nominal_check, how_))
+    if (fine.excess > how_.floor || !holds_elsewhere(fine.check_excess, found_.nominal_check, how_))
       return false;
     found_.baseline = fine.fit;
     found_.baseline_excess = fine.excess;

@@ -121,8 +121,7 @@ class Procedure {
     fine.excess = SceneDataSet::beyond_noise(fine.fit.sum);
     if (out_.check_trials.empty()) return fine;
     const Eigen::MatrixXd left = evaluator.residuals({&fine.fit.model, 1}, out_.check_trials);
-    fine.check_excess =
-        SceneDataSet::beyond_noise(evaluator.sum(left.col(0), out_.check_trials));
+    fine.check_excess = SceneDataSet::beyond_noise(evaluator.sum(left.col(0), out_.check_trials));
     return fine;
   }
 

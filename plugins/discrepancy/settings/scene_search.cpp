@@ -107,9 +107,10 @@ void add_effort(SceneSearchSettings& s, SettingRows& rows) {
   rows.count("refits", s.refits,
              "Causes refitted in the first round, and as many of fewer numbers; half in the next.",
              {budget, scene_time, "Searches take up to twice as long."});
-  rows.count("causes", s.causes, "The most causes together.",
-             {measured, "of a harvest with three things hidden two leave 2.5 noise units, three 0.25",
-              "Searches that end as unknown take longer."});
+  rows.count(
+      "causes", s.causes, "The most causes together.",
+      {measured, "of a harvest with three things hidden two leave 2.5 noise units, three 0.25",
+       "Searches that end as unknown take longer."});
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ TEST_F(Harvest, ExtendedSceneForetellsTheHeldOutTrialBetter) {
 
   const Diagnosed found = diagnose(folder / "experiment", folder / "diagnosis", 2);
   EXPECT_TRUE(found.is_believed) << found.findings;
-  EXPECT_EQ(names_in(found.verdict), (std::set<std::string>{"contact_friction", "robot_latency",
-                                                            "detachment_threshold"}))
+  EXPECT_EQ(names_in(found.verdict),
+            (std::set<std::string>{"contact_friction", "robot_latency", "detachment_threshold"}))
       << found.findings;
   ASSERT_FALSE(found.extended.empty()) << found.findings;
   const Comparison all = compare(folder / "experiment", found.extended, setting, runs, 2);

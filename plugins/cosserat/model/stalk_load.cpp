@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/solver/stalk_load.h"
+#include "pedicel/cosserat/model/stalk_load.h"
 
 #include "pedicel/cosserat/model/rotation.h"
 
