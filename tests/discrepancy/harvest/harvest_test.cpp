@@ -20,8 +20,8 @@ Options two_trials(std::vector<scene_case::Hidden> hidden) {
 
 std::set<std::string> names_in(const std::string& verdict) {
   std::set<std::string> names;
-  for (const auto& cause : nlohmann::json::parse(verdict).at("causes"))
-    names.insert(cause.at("name").get<std::string>());
+  const nlohmann::json all = nlohmann::json::parse(verdict);
+  for (const auto& cause : all.at("causes")) names.insert(cause.at("name").get<std::string>());
   return names;
 }
 
