@@ -6,7 +6,6 @@
 #include "pedicel/app/plants/organ_contacts.h"
 #include "pedicel/app/run/place.h"
 #include "pedicel/app/run/scene_assets.h"
-#include "pedicel/cosserat/model/stalk_load.h"
 
 namespace pedicel::app {
 
@@ -93,7 +92,7 @@ void add_fruit(Channels& all, const Simulation& simulation, int p, int f) {
     const cosserat::RodState& state = simulation.rods().state(p);
     if (state.fruit_gone[f]) return std::numeric_limits<double>::quiet_NaN();
     const cosserat::RodModel& own = simulation.rods().model(p);
-    return (cosserat::stalk_load(own, state, own.fruits[f].element).*part).norm();
+    return (cosserat::joint_load(own, state, own.fruits[f].element).*part).norm();
   };
   all.push_back({name + "_stalk_N", [load] { return load(&cosserat::JointLoad::force); }});
   all.push_back({name + "_stalk_Nm", [load] { return load(&cosserat::JointLoad::moment); }});

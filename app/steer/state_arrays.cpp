@@ -6,7 +6,6 @@
 
 #include "pedicel/app/plants/plant_step.h"
 #include "pedicel/app/run/place.h"
-#include "pedicel/cosserat/model/stalk_load.h"
 
 namespace pedicel::app {
 
@@ -29,6 +28,12 @@ void write(double* to, const Pose& pose) {
 void write(double* to, const Vec3& first, const Vec3& second) {
   write(to, first);
   write(to + 3, second);
+}
+
+void write_load(double* to, const cosserat::RodModel& model, const cosserat::RodState& state,
+                int element) {
+  const cosserat::JointLoad load = cosserat::joint_load(model, state, element);
+  write(to, load.force, load.moment);
 }
 
 }  // namespace
@@ -112,8 +117,7 @@ void StateArrays::fill_segments(const Simulation& simulation, int world, int pla
   });
   each(Field::segment_loads, world, first, count, [&](double* to, int e) {
     if (!state.alive[e]) return void(std::fill_n(to, 6, 0.0));
-    const cosserat::JointLoad load = cosserat::joint_load(model, state, e);
-    write(to, load.force, load.moment);
+    write_load(to, model, state, e);
   });
   each_flag(Field::attached, world, first, count, [&](int e) { return state.alive[e] != 0; });
 }
@@ -132,8 +136,7 @@ void StateArrays::fill_fruits(const Simulation& simulation, int world, int plant
   });
   each(Field::stalk_loads, world, first, count, [&](double* to, int f) {
     if (state.fruit_gone[f]) return void(std::fill_n(to, 6, 0.0));
-    const cosserat::JointLoad load = cosserat::stalk_load(model, state, model.fruits[f].element);
-    write(to, load.force, load.moment);
+    write_load(to, model, state, model.fruits[f].element);
   });
 }
 

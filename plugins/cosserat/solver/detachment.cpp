@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "pedicel/cosserat/model/stalk_load.h"
-
 namespace pedicel::cosserat {
 
 namespace {
@@ -108,7 +106,7 @@ StalkNumbers stalk_numbers(const RodModel& model, const RodState& state, int ele
   // Strains are from the unloaded shape, as the paper's are. A stalk that hangs under its own fruit
   // has therefore used a part of its limit before anything pulls.
   const Strain strain = strain_of(model, state, element);
-  const JointLoad load = stalk_load(model, state, element);
+  const JointLoad load = joint_load(model, state, element);
   return {strain.stretch.norm(), strain.bend.norm(), load.force.norm(),
           load.moment.head<2>().norm(), std::abs(load.moment.z())};
 }

@@ -74,6 +74,7 @@ class SceneRun {
         motion_.healthy = false;
       if (!find_equilibrium(models_[p], state, experiment_.scene.gravity, {}))
         motion_.healthy = false;
+      watch_stalks(p, state);
       const int plant = rods.add_plant(models_[p]);
       rods.set_state(plant, state);
       auto source =
@@ -168,6 +169,30 @@ class SceneRun {
     return motion_.healthy;
   }
 
+  /// Takes fruits off whose stalks pass on more than they bear.
+  void part_stalks(cosserat::RodSystem& rods, double t) {
+    for (Stalk& stalk : stalks_) {
+      const int plant = first_ + stalk.plant;
+      const cosserat::RodModel& model = rods.model(plant);
+      const cosserat::RodState& state = rods.state(plant);
+      const auto f = static_cast<std::size_t>(stalk.fruit);
+      if (state.fruit_gone[f]) continue;
+      const int e = model.fruits[f].element;
+      const cosserat::JointLoad now = cosserat::joint_load(model, state, e);
+      // By the elastic part alone a stalk that is pulled evenly would part later by its damping
+      // time. The rate is the step's own: that of velocities is no difference of these strains.
+      const double share = model.elements[static_cast<std::size_t>(e)].damping_time / dt_;
+      const Vec3 force = now.force + share * (now.force - stalk.last.force);
+      const Vec3 moment = now.moment + share * (now.moment - stalk.last.moment);
+      stalk.last = now;
+      if (force.norm() <= stalk.limits.force && moment.head<2>().norm() <= stalk.limits.moment &&
+          std::abs(moment.z()) <= stalk.limits.torsion)
+        continue;
+      motion_.events.push_back({t, "detached", model.fruits[f].name, ""});
+      cosserat::take_off(rods.edit_model(plant), rods.edit_state(plant), stalk.fruit);
+    }
+  }
+
   void take_events(const cosserat::RodSystem& rods, double t) {
     for (std::size_t p = 0; p < models_.size(); ++p)
       for (const cosserat::DetachEvent& event : rods.detached(first_ + static_cast<int>(p)))
@@ -179,6 +204,27 @@ class SceneRun {
   SceneMotion take() { return std::move(motion_); }
 
  private:
+  /// A stalk that bears so much force, moment and torsion. Its joint's load counts with what
+  /// damping passes on, as Newton's law for the fruit has it, and as a load cell would.
+  struct Stalk {
+    int plant = 0, fruit = 0;
+    cosserat::Thresholds limits;
+    cosserat::JointLoad last;  // at the last step
+  };
+
+  // Limits of load are looked at here, and no more by the solver, which knows the elastic part
+  // alone. Strains and laws stay with it.
+  void watch_stalks(std::size_t p, const cosserat::RodState& state) {
+    for (std::size_t f = 0; f < models_[p].fruits.size(); ++f) {
+      cosserat::Fruit& fruit = models_[p].fruits[f];
+      if (fruit.law) continue;
+      stalks_.push_back({static_cast<int>(p), static_cast<int>(f), fruit.thresholds,
+                         cosserat::joint_load(models_[p], state, fruit.element)});
+      fruit.thresholds.force = fruit.thresholds.moment = fruit.thresholds.torsion =
+          cosserat::Thresholds::never;
+    }
+  }
+
   /// An organ that a link holds rigidly.
   struct Held {
     std::string what;
@@ -459,6 +505,7 @@ class SceneRun {
   std::vector<plant::PlacedPoint> force_places_;
   GivingJoints joints_;
   GivingArm arm_;
+  std::vector<Stalk> stalks_;
   std::vector<Held> held_;
   std::size_t next_event_ = 0;
   bool changed_ = false;  // supports are those of the model no longer
@@ -505,6 +552,7 @@ std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, cons
     bool any = false;
     for (const auto& variant : variants) {
       if (!variant->healthy()) continue;
+      variant->part_stalks(rods, t);
       variant->take_events(rods, t);
       if (stop || !variant->judge(rods)) {
         variant->fail();
