@@ -162,7 +162,7 @@ class Search {
   // A plant that is not seen may stand where no derivative shows the way: when it is touched, or
   // whether, decides. So it is put to several places first.
   Hypothesis first_baseline() {
-    std::vector<Hypothesis> starts = {plain_baseline()};
+    std::vector<Hypothesis> starts = {scene_baseline(experiment_, evaluator_.settings())};
     const double far = how_.farthest_start;
     for (std::size_t p = 0; p < starts.front().free.size(); ++p) {
       const effects::FreeParameter& free = starts.front().free[p];
@@ -212,8 +212,6 @@ class Search {
       found_.baseline = std::move(next);
     }
   }
-
-  Hypothesis plain_baseline() const { return scene_baseline(experiment_, evaluator_.settings()); }
 
   void judge_baseline() {
     found_.baseline_cost = cost_of(found_.baseline);
@@ -482,11 +480,7 @@ class Search {
       found_.material = material_of(found_.candidates.front().fit, experiment_, how_);
       // Against the floor alone, and not against a share of the misfit: the baseline is what all
       // shares are taken of. Held-out trials may object, as something may act in one of them alone.
-    } else if (found_.baseline_excess <= how_.floor &&
-               holds_elsewhere(found_.baseline_check, found_.nominal_check, how_)) {
-      found_.outcome = Outcome::adequate;
-      found_.material = material_of(found_.baseline, experiment_, how_);
-    } else if (is_adequate_finely()) {
+    } else if (is_adequate(found_.baseline_excess, found_.baseline_check) || is_adequate_finely()) {
       found_.outcome = Outcome::adequate;
       found_.material = material_of(found_.baseline, experiment_, how_);
     } else {
@@ -498,6 +492,10 @@ class Search {
     }
   }
 
+  bool is_adequate(double excess, const std::optional<double>& check) const {
+    return excess <= how_.floor && holds_elsewhere(check, found_.nominal_check, how_);
+  }
+
   // A coarse mesh may leave more than the floor where the scene is right: a stalk of 60 mm is three
   // of its segments. So before anything is called unknown, the mesh that judges is asked.
   bool is_adequate_finely() {
@@ -506,8 +504,7 @@ class Search {
       return false;
     tell("refitting the baseline with a finer mesh", 0.88);
     const FinerFit fine = options_.refit_finely(found_.baseline.model);
-    if (fine.excess > how_.floor || !holds_elsewhere(fine.check_excess, found_.nominal_check, how_))
-      return false;
+    if (!is_adequate(fine.excess, fine.check_excess)) return false;
     found_.baseline = fine.fit;
     found_.baseline_excess = fine.excess;
     found_.baseline_check = fine.check_excess;
@@ -580,12 +577,14 @@ class Search {
       if (stopped()) return;
       // Each by itself. Together with a trial in which something else acts no trial would be
       // explained.
-      SceneFitResult own = fit(plain_baseline(), how_.first_iterations, {t});
+      SceneFitResult own =
+          fit(scene_baseline(experiment_, evaluator_.settings()), how_.first_iterations, {t});
       if (SceneDataSet::beyond_noise(own.sum) > how_.clean_allowance * how_.floor) continue;
       found_.clean.push_back(t);
     }
     if (found_.clean.empty()) return;
-    const SceneFitResult clean = fit(plain_baseline(), how_.baseline_iterations, found_.clean);
+    const SceneFitResult clean = fit(scene_baseline(experiment_, evaluator_.settings()),
+                                     how_.baseline_iterations, found_.clean);
     // Each of them alone was explained by other numbers: then no one plant explains them.
     if (SceneDataSet::beyond_noise(clean.sum) > how_.clean_allowance * how_.floor) {
       found_.clean.clear();

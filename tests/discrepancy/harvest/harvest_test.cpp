@@ -67,8 +67,8 @@ TEST_F(Harvest, HiddenNumbersAgreeWithTheOtherEngine) {
   const Comparison all = compare(folder / "experiment", {}, setting, runs, 2);
   for (const Trial& trial : all.trials) {
     ASSERT_TRUE(trial.real.came_off && trial.hidden.came_off) << tables(all, "");
-    EXPECT_NEAR(*trial.hidden.came_off, *trial.real.came_off, 0.02) << tables(all, "");
-    EXPECT_LT(trial.hidden.rms_apart, 1.5e-3) << tables(all, "");
+    EXPECT_NEAR(*trial.hidden.came_off, *trial.real.came_off, 0.008) << tables(all, "");
+    EXPECT_LT(trial.hidden.rms_apart, 1.0e-3) << tables(all, "");
     EXPECT_LT(trial.hidden.misfit, 0.5 * trial.nominal.misfit) << tables(all, "");
   }
 }
