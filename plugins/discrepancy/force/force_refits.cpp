@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <ranges>
 #include <set>
 #include <utility>
 
+#include "pedicel/discrepancy/data/places.h"
 #include "pedicel/discrepancy/data/sentence.h"
 #include "pedicel/discrepancy/select/evidence.h"
 #include "pedicel/discrepancy/simulate/force_term.h"
@@ -13,12 +16,6 @@
 namespace pedicel::discrepancy {
 
 namespace {
-
-// What refits of one kind find for the other, too. (A spring does not find a pull that grows
-// weaker with distance: its refit goes where the pull is constant.)
-std::string family_of(const plant::Effect& force) {
-  return kind_of(force) == "string" ? "stop" : kind_of(force);
-}
 
 // A spring as strong as the push at a distance of the end, so that the refit begins where the push
 // was.
@@ -55,6 +52,64 @@ plant::Effect as_stop(plant::Effect string, double least_across) {
   string.words["kind"] = "stop";
   string.numbers.erase("distance");
   return string;
+}
+
+// m, W, of a place of a curve at each sample, between the markers beside it.
+Eigen::MatrixXd path_at(const MarkerChain& chain, double at, const Eigen::MatrixXd& markers) {
+  const auto path = [&](std::size_t i) { return markers.middleCols(3L * chain.markers[i], 3); };
+  const double arc = at * chain.length;
+  const auto above =
+      static_cast<std::size_t>(std::ranges::lower_bound(chain.arc, arc) - chain.arc.begin());
+  if (above == 0) return path(0);
+  if (above == chain.arc.size()) return path(above - 1);
+  const double share = (arc - chain.arc[above - 1]) / (chain.arc[above] - chain.arc[above - 1]);
+  return (1.0 - share) * path(above - 1) + share * path(above);
+}
+
+// A stop in other places of its curve: at the markers and midway between them. It begins where the
+// place is when the stop that was found begins, and pushes as much.
+std::vector<plant::Effect> stops_along(const plant::Effect& stop, const MarkerChain& chain,
+                                       std::span<const Prediction> motion) {
+  std::vector<double> others;
+  for (std::size_t i = 0; i < chain.arc.size(); ++i) {
+    others.push_back(chain.arc[i] / chain.length);
+    if (i > 0) others.push_back(0.5 * (chain.arc[i - 1] + chain.arc[i]) / chain.length);
+  }
+  const Vec3 n = direction_of(stop), about(stop.numbers.at("about").data());
+  const double begins = n.dot(about) - stop.number("offset");
+  std::vector<plant::Effect> moved;
+  for (const double at : others) {
+    Vec3 sum = Vec3::Zero();
+    double depth = 0.0;
+    std::vector<double> heights;  // along n, while the stop acts
+    for (const Prediction& trial : motion) {
+      const Eigen::MatrixXd here = path_at(chain, stop.place->at, trial.markers);
+      const Eigen::MatrixXd there = path_at(chain, at, trial.markers);
+      for (long k = 0; k < here.rows(); ++k) {
+        const double in = begins - here.row(k).dot(n);
+        // Not of a simulation that failed.
+        if (!(in > 0.0) || !there.row(k).allFinite()) continue;
+        depth += in;
+        sum += there.row(k).transpose();
+        heights.push_back(there.row(k).dot(n));
+      }
+    }
+    if (heights.empty()) continue;
+    std::ranges::sort(heights);
+    const double face = heights[heights.size() * 9 / 10];
+    double depth_there = 0.0;
+    for (const double height : heights) depth_there += std::max(0.0, face - height);
+    if (depth_there <= 0.0) continue;
+    const Vec3 mean = sum / static_cast<double>(heights.size());
+    const Vec3 to = mean + (face - mean.dot(n)) * n;
+    plant::Effect there = stop;
+    there.place->at = at;
+    there.numbers["about"] = {to.x(), to.y(), to.z()};
+    there.numbers["offset"] = {0.0};
+    scale_force(there, depth / depth_there);
+    moved.push_back(std::move(there));
+  }
+  return moved;
 }
 
 }  // namespace
@@ -121,8 +176,8 @@ std::vector<ForceTerm> ForceRefits::worth_refitting() const {
       chosen.push_back(law);
   };
   // Another place of one kind is found by the refit itself, along the curve; another curve is not.
-  std::set<std::string> families, curves{first.place->curve};
-  for (const ForceTerm& law : linear_) take(law, families, family_of(law.force));
+  std::set<std::string> kinds, curves{first.place->curve};
+  for (const ForceTerm& law : linear_) take(law, kinds, kind_of(law.force));
   for (const ForceTerm& law : linear_)
     if (kind_of(law.force) == kind_of(first)) take(law, curves, law.force.place->curve);
   std::ranges::stable_sort(
@@ -165,9 +220,53 @@ FitSummary ForceRefits::fitted(const ForceTerm& law) {
     // Of one kind with as many numbers, so costs alone decide.
     if (best.why == "not run" || found.cost < best.cost) best = std::move(found);
   }
-  few.iterations -= look.iterations;
+  FitOptions rest = few;
   // What the look has taken counts: no kind gets more iterations than another.
-  return few.iterations > 0 ? discrepancy::refit(evaluator_, best, few) : best;
+  rest.iterations -= look.iterations;
+  if (rest.iterations > 0) best = discrepancy::refit(evaluator_, best, rest);
+  return kind_of(law.force) == "stop" ? moved_along(std::move(best), few) : best;
+}
+
+// A hard stop leaves a valley at every node, and a fit does not climb from one to the next. So the
+// stop that was found is tried in the other places, too.
+FitSummary ForceRefits::moved_along(FitSummary found, const FitOptions& few) {
+  // Where it leaves little but noise there is nothing that another place could explain.
+  if (found.cost < scales_.samples) return found;
+  const plant::Effect stop = found.hypothesis.effects.back();
+  const Experiment& experiment = evaluator_.data().experiment();
+  const std::vector<MarkerChain> chains = chains_of(experiment);
+  const auto chain = std::ranges::find_if(chains, [&](const MarkerChain& one) {
+    const auto curve = static_cast<std::size_t>(one.curve);
+    return experiment.plant.curves[curve].name == stop.place->curve;
+  });
+  // By what the fit foretells of the markers, which is near the data by now.
+  const auto motion = evaluator_.predictions(std::vector{found.hypothesis}, options_.fit);
+  std::vector<Hypothesis> starts;
+  for (const plant::Effect& moved : stops_along(stop, *chain, motion.front()))
+    // A stop found elsewhere is about as hard as the markers were stopped, and no more.
+    for (const double factor : {0.5, 1.0, 2.0}) {
+      Hypothesis start = found.hypothesis;
+      start.effects.back() = moved;
+      scale_force(start.effects.back(), factor);
+      starts.push_back(std::move(start));
+    }
+  if (starts.empty()) return found;
+  const Scan seen = scan(evaluator_, starts, options_.fit);
+  std::map<double, std::size_t> best_at;  // the best start of each place
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto [known, is_new] = best_at.try_emplace(starts[i].effects.back().place->at, i);
+    if (!is_new && seen.cost[i] < seen.cost[known->second]) known->second = i;
+  }
+  std::vector<std::size_t> order;
+  for (const auto& [at, i] : best_at) order.push_back(i);
+  std::ranges::sort(order, {}, [&](std::size_t i) { return seen.cost[i]; });
+  // All the way: in its first iterations a hard stop in its right place is worse than a soft one
+  // elsewhere.
+  for (const std::size_t i : order | std::views::take(budget_.stop_moves)) {
+    FitSummary other = fit(evaluator_, starts[i], few);
+    if (other.cost < found.cost) found = std::move(other);
+  }
+  return found;
 }
 
 // What looks like a stop may be a string to a point at any distance.

@@ -45,6 +45,7 @@ class ForceRefits {
   std::vector<ForceTerm> worth_refitting() const;
   void refit(ForceTerm law);
   FitSummary fitted(const ForceTerm& law);
+  FitSummary moved_along(FitSummary found, const FitOptions& few);
   Hypothesis best_start(const plant::Effect& force);
   Hypothesis with(const plant::Effect& force) const;
   void judge(const FitSummary& found, ForceTerm& law) const;

@@ -138,7 +138,7 @@ std::vector<SceneFit> baseline_effects(const SceneStartContext& context) {
 const SceneEffectDefinition* told_of_baseline(const plant::Effect& effect,
                                               const effects::FreeParameter& free) {
   const SceneEffectDefinition* known = find_scene_effect(effect.name);
-  // As a cause, an effect has no priors.
+  // As a cause, an effect has no prior on that number.
   const bool told = known && known->in_baseline && free.prior != 0.0 &&
                     free.name == known->in_baseline->parameter;
   return told ? known : nullptr;

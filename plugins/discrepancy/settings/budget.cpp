@@ -202,6 +202,10 @@ void add_force_search(Budget& b, SettingRows& rows) {
              {budget, time_only, "Unknown effects take longer."});
   rows.count("look_iterations", b.look_iterations, "Iterations from each of them.",
              {budget, time_only, "Unknown effects take longer."});
+  rows.count(
+      "stop_moves", b.stop_moves, "Other places from which a stop that leaves much is fitted.",
+      {measured, "a stop thirty times as stiff as its stem: the right place was third of nine",
+       "Unknown effects take longer."});
 }
 
 }  // namespace

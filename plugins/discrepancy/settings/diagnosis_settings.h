@@ -135,6 +135,7 @@ struct Budget {
   int law_iterations = 30;
   int law_looks = 6;
   int look_iterations = 5;
+  int stop_moves = 3;
 };
 
 /// Mesh, step and differences: what our own numbers may err by.

@@ -83,7 +83,10 @@ SceneEffectDefinition define_plant_pose() {
     for (const ScenePlantFile& plant : c.experiment.plants) {
       effects::Start start("plant_pose");
       if (c.experiment.plants.size() > 1) start.word("plant", plant.name);
-      start.vector("offset", Vec3::Zero(), 1.0e-3, 0.1).signed_number("yaw", 0.0, 0.01, -0.5, 0.5);
+      constexpr double turn = 0.01;  // rad, of a unit step
+      start.vector("offset", Vec3::Zero(), 1.0e-3, 0.1).signed_number("yaw", 0.0, turn, -0.5, 0.5);
+      // A straight stem hardly shows its yaw, and without a prior it runs away to a bound.
+      start.prior(c.settings.fit.yaw_known_to / turn, 0.0);
       starts.push_back(start);
     }
     return starts;
