@@ -14,12 +14,6 @@ using cosserat::ContactPoint;
 using cosserat::RodModel;
 using cosserat::RodState;
 
-namespace {
-
-constexpr int every_collider = -1;
-
-}  // namespace
-
 ColliderSource::ColliderSource(const ColliderSet& colliders, const CouplingSettings& settings)
     : colliders_(colliders), settings_(settings) {
   const std::string refusal = check(settings);
@@ -27,13 +21,18 @@ ColliderSource::ColliderSource(const ColliderSet& colliders, const CouplingSetti
 }
 
 std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, const RodState& state) {
-  return ignore_touching(model, state, every_collider);
+  return ignore_touching(model, state, [](int, int) { return true; });
+}
+
+std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, const RodState& state,
+                                                     int collider) {
+  return ignore_touching(model, state, [&](int, int one) { return one == collider; });
 }
 
 // A pair is left out for good and not until it has parted: a stem in the ground parts and meets
 // with every sway, and would be thrown out of it.
 std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, const RodState& state,
-                                                     int collider) {
+                                                     const std::function<bool(int, int)>& asked) {
   // A step without motion, so that nothing is found by its way.
   begin_step(model, state, 0.0);
   std::vector<ContactPoint> found;
@@ -44,7 +43,7 @@ std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, cons
   for (const ContactPoint& point : found) {
     // What is nearer than the margin pushes already, and would be pushed away at the start.
     if (point.gap > settings_.margin) continue;
-    if (collider != every_collider && point.collider != collider) continue;
+    if (!asked(point.shape, point.collider)) continue;
     Overlap& overlap =
         overlaps.try_emplace({point.shape, point.collider}, Overlap{0, 0, -point.gap})
             .first->second;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -45,6 +46,10 @@ class ColliderSource : public cosserat::ContactSource {
   /// The same of one collider alone.
   std::vector<Overlap> ignore_touching(const cosserat::RodModel& model,
                                        const cosserat::RodState& state, int collider);
+  /// The same of the pairs, by shape and collider, that `asked` is true for.
+  std::vector<Overlap> ignore_touching(const cosserat::RodModel& model,
+                                       const cosserat::RodState& state,
+                                       const std::function<bool(int, int)>& asked);
 
   /// Goes on with other settings; the margin stays. Throws UsageError where it is another.
   void change_settings(const CouplingSettings& settings);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "pedicel/cosserat/model/rotation.h"
 #include "pedicel/cosserat/solver/rod_system.h"
@@ -74,12 +75,13 @@ class SceneRun {
         motion_.healthy = false;
       if (!find_equilibrium(models_[p], state, experiment_.scene.gravity, {}))
         motion_.healthy = false;
-      watch_stalks(p, state);
-      const int plant = rods.add_plant(models_[p]);
-      rods.set_state(plant, state);
       auto source =
           std::make_unique<GivingSource>(colliders_, settings_, margin_, body_of_robot, arm_);
       source->ignore_touching(models_[p], state);
+      lean_on_arm(p, state, *source);
+      watch_stalks(p, state);
+      const int plant = rods.add_plant(models_[p]);
+      rods.set_state(plant, state);
       sources_.push_back(source.get());
       rods.add_contact_source(plant, std::move(source));
     }
@@ -440,6 +442,18 @@ class SceneRun {
     }
   }
 
+  // A stem that stands where the arm begins leans on it: what was measured overlapped nowhere.
+  void lean_on_arm(std::size_t p, cosserat::RodState& state, GivingSource& source) {
+    if (!source.overlaps_arm(models_[p], state)) return;
+    leans_ = true;
+    cosserat::ContactSource* const contact = &source;
+    // How far a joint gives way is known in a step alone, and the first one moves it there.
+    const bool gives = std::exchange(arm_.gives, false);
+    if (!find_equilibrium(models_[p], state, experiment_.scene.gravity, {}, {&contact, 1}))
+      motion_.healthy = false;
+    arm_.gives = gives;
+  }
+
   cosserat::RodState first_state(std::size_t p) const {
     cosserat::RodState state = cosserat::drawn_state(models_[p]);
     const Pose by = moved_plant(models_[p].root.position, member_.state->plants[p]);
@@ -465,6 +479,8 @@ class SceneRun {
       add_contact(colliders_.collider(c).link, sum, row);
     }
     record_held(rods, row);
+    // Before the first step no force is known.
+    if (row == 1 && leans_) motion_.contact.row(0) = motion_.contact.row(1);
     if (!arm_.gives) return;
     joints_.end_step(motion_.effort.row(row).transpose());
     motion_.given.row(row) = joints_.row();
@@ -509,6 +525,7 @@ class SceneRun {
   std::vector<Held> held_;
   std::size_t next_event_ = 0;
   bool changed_ = false;  // supports are those of the model no longer
+  bool leans_ = false;    // a plant on the arm, from the start
   std::vector<Pose> poses_;
   int first_ = 0;  // of its plants
   SceneMotion motion_;

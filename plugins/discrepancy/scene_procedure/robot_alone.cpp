@@ -145,18 +145,24 @@ class RobotAlone {
     int count = 0;
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   };
-  static Push push_between(const Felt& felt, double from, double until) {
+  static Push mean_of(const Felt& felt, std::size_t first, std::size_t end) {
     Push push;
-    push.from = from, push.until = until;
-    for (std::size_t i = 0; i < felt.time.size(); ++i) {
-      if (felt.time[i] < from || felt.time[i] > until) continue;
+    for (std::size_t i = first; i < end; ++i) {
       push.force += felt.force[i];
       push.moment += felt.moment[i];
       push.time += felt.time[i];
-      ++push.count;
     }
+    push.count = static_cast<int>(end - first);
     const double count = std::max(1, push.count);
     push.force /= count, push.moment /= count, push.time /= count;
+    return push;
+  }
+  static Push push_between(const Felt& felt, double from, double until) {
+    const auto first = std::ranges::lower_bound(felt.time, from);
+    const auto end = std::ranges::upper_bound(felt.time, until);
+    Push push = mean_of(felt, static_cast<std::size_t>(first - felt.time.begin()),
+                        static_cast<std::size_t>(end - felt.time.begin()));
+    push.from = from, push.until = until;
     return push;
   }
 
@@ -286,43 +292,60 @@ class RobotAlone {
     return length;
   }
 
-  // The largest fall of the force within a moment.
+  /// How the wrench changes between a sample and the one before it.
+  struct Jump {
+    Vec3 force = Vec3::Zero();  // N, in the sensor's frame
+    double before = 0.0;        // N, the force that there was
+    double deviations = 0.0;    // of the noise, force and moment together
+  };
+  // Of a fast sensor several samples are taken together on each side.
+  Jump jump_at(const Felt& felt, std::size_t i) const {
+    std::size_t first = i - 1, end = i + 1;
+    while (first > 0 && felt.time[i - 1] - felt.time[first - 1] <= how_.break_window) --first;
+    while (end < felt.time.size() && felt.time[end] - felt.time[i] <= how_.break_window) ++end;
+    const Push before = mean_of(felt, first, i), after = mean_of(felt, i, end);
+    const double samples = 1.0 / (1.0 / before.count + 1.0 / after.count);
+    Jump jump;
+    jump.force = after.force - before.force;
+    jump.before = before.force.norm();
+    jump.deviations =
+        std::sqrt(samples) * std::hypot(jump.force.norm() / force_std_,
+                                        (after.moment - before.moment).norm() / moment_std_);
+    return jump;
+  }
+
+  // What comes off lets the wrench jump while something is held. The force itself need not fall: a
+  // tool may touch the stem again at once.
   void tell_break(const SceneTrial& trial, const Felt& felt) {
-    const auto mean = [&](std::size_t i, int side) {
-      Vec3 sum = Vec3::Zero();
-      int count = 0;
-      for (auto k = static_cast<long>(i) + side; k >= 0 && k < static_cast<long>(felt.time.size());
-           k += side) {
-        const auto at = static_cast<std::size_t>(k);
-        if (std::abs(felt.time[at] - felt.time[i]) > how_.around_break) break;
-        sum += felt.force[at];
-        ++count;
-      }
-      return count > 0 ? Vec3(sum / count) : Vec3(felt.force[i]);
-    };
-    double most = 0.0;
-    std::size_t at = 0;
-    for (std::size_t i = 1; i + 1 < felt.time.size(); ++i) {
-      const double fall = mean(i, -1).norm() - mean(i, 1).norm();
-      if (fall <= most) continue;
-      most = fall;
-      at = i;
+    std::vector<Jump> jumps(felt.time.size());
+    const double held = how_.break_share * felt.largest();
+    std::size_t largest = 0;
+    for (std::size_t i = 1; i < felt.time.size(); ++i) {
+      jumps[i] = jump_at(felt, i);
+      // A touch that begins is a jump, too.
+      if (jumps[i].before < held) jumps[i].deviations = 0.0;
+      if (jumps[i].deviations > jumps[largest].deviations) largest = i;
     }
-    if (most < std::max(how_.break_share * felt.largest(), how_.break_deviations * force_std_))
-      return;
-    const double sample = (felt.time.back() - felt.time.front()) /
-                          static_cast<double>(std::max<std::size_t>(1, felt.time.size() - 1));
+    if (jumps[largest].deviations < how_.break_deviations) return;
+    // What swings afterwards may jump farther than what has come off.
+    std::size_t first = largest;
+    for (std::size_t i = largest; i > 0; --i)
+      if (felt.time[i] > felt.time[largest] - how_.around_break &&
+          jumps[i].deviations >= how_.break_deviations)
+        first = i;
+    // Between the two samples, anywhere.
+    const double sample = felt.time[first] - felt.time[first - 1];
     SymptomNumber said;
     said.name = "force_breaks_off";
     said.of = trial.name;
-    said.value = felt.time[at];
-    said.error = sample + how_.around_break * force_std_ / most;
+    said.value = felt.time[first] - 0.5 * sample;
+    said.error = 0.5 * sample + how_.break_window;
     said.unit = "s";
     said.shows = true;
     said.speaks_for = scene_spoken_for(said.name);
-    said.sentence = "In " + trial.name + " the force falls by " + io::format_number(most, 2) +
-                    " N at " + io::format_number(said.value, 4) +
-                    " s: something slips or comes off.";
+    said.sentence = "In " + trial.name + " the force jumps by " +
+                    io::format_number(jumps[first].force.norm(), 2) + " N at " +
+                    io::format_number(said.value, 4) + " s: something slips or comes off.";
     found_.push_back(said);
   }
 

@@ -14,15 +14,19 @@ void add_robot_alone(RobotAloneSettings& r, std::vector<DiagnosisSetting>& all) 
   rows.share("firm_share", r.firm_share, "Of the largest force: what is as strong says where, too.",
              {derived, "a push that is nearly constant stays at one place",
               "It cannot double: at 1 one sample says where."});
-  rows.measure("around_break", "s", r.around_break, "Time to either side of a break.",
+  rows.measure("around_break", "s", r.around_break,
+               "How long before its largest jump a break may have begun.",
                {derived, "several samples of a wrist sensor", "Breaks close together are one."});
-  rows.share("break_share", r.break_share, "Of the largest force: what must break off at once.",
-             {measured, "scenes with a known answer; no figure was kept",
-              "Slips of a part of the force are not told."});
+  rows.measure("break_window", "s", r.break_window,
+               "Time of which samples are taken together on either side of a jump.",
+               {derived, "less than a sample at 250 Hz", "Moments of breaks are less sharp."});
+  rows.share("break_share", r.break_share, "Of the largest force: what must be held at a break.",
+             {derived, "a touch that begins jumps, too, from nothing",
+              "Breaks of light pulls are not told."});
   rows.number("break_deviations", r.break_deviations,
-              "Deviations of a sample by which it must fall.",
-              {derived, "of ten thousand samples of noise none reaches 5",
-               "Breaks of light pushes are not told."});
+              "Deviations by which force and moment must jump at once.",
+              {measured, "eight stalks that part jump by 22 to 205, pushes of stems by up to 9",
+               "Breaks of light pulls are not told."});
   rows.measure("line_step", "m", r.line_step, "Step along the line of a force.",
                {derived, "below what a place is known to", "Places are told less sharply."});
   rows.measure("line_reach", "m", r.line_reach, "How far along the line a link is looked for.",

@@ -75,15 +75,16 @@ struct OutsideForceSettings {
 
 /// What wrench and joints alone say of a plant.
 struct RobotAloneSettings {
-  double least_push = 15.0;       ///< deviations
-  double firm_share = 0.9;        ///< of the largest force
-  double around_break = 0.012;    ///< s
-  double break_share = 0.25;      ///< of the largest force
-  double break_deviations = 6.0;  ///< deviations
-  double line_step = 2.5e-4;      ///< m
-  double line_reach = 0.5;        ///< m
-  double touching = 1.0e-3;       ///< m
-  double near_stem = 0.03;        ///< m
+  double least_push = 15.0;        ///< deviations
+  double firm_share = 0.9;         ///< of the largest force
+  double around_break = 0.012;     ///< s
+  double break_window = 0.003;     ///< s
+  double break_share = 0.25;       ///< of the largest force
+  double break_deviations = 12.0;  ///< deviations
+  double line_step = 2.5e-4;       ///< m
+  double line_reach = 0.5;         ///< m
+  double touching = 1.0e-3;        ///< m
+  double near_stem = 0.03;         ///< m
   int places = 80;
 };
 

@@ -101,8 +101,9 @@ Vec3 Run::mean_effort(double t, double rate) const {
 std::vector<Drive> drives_of(const Setting& s) {
   if (s.truss) return harvest_drives(s);
   const auto beside = [&](double y, double z) { return reaching(s.root + Vec3(0.0, y, 0.0), z); };
-  // m, of the finger's axis from the stem's: first it stands clear.
-  const double clear = -(s.radius + finger_radius + 0.012);
+  // m, of the finger's axis from the stem's: first it stands clear, wherever a stem that only the
+  // robot feels may stand.
+  const double clear = -(s.radius + finger_radius + (s.unseen ? 0.03 : 0.012));
   const double low = 0.55 * s.height, high = 0.75 * s.height;
   std::vector<Drive> all;
   all.push_back({"push",

@@ -158,6 +158,29 @@ TEST_F(SceneEffects, APushedStemPushesBackAsABeamDoes) {
   EXPECT_NEAR(-readings.wrenches[0](last, 1), stiffness * way, 0.15 * stiffness * way);
 }
 
+// Where the plant stands is fitted, too, and on the way there its stem may stand in the arm.
+TEST_F(SceneEffects, AStemThatStandsInTheArmLeansOnItFromTheStart) {
+  // The whole edge of the finger touches at once, 0.2 m above the root and higher.
+  const double stiffness = 3.0 * 1.0e9 * M_PI / 4.0 * std::pow(0.004, 4) / std::pow(0.2, 3);
+  at_.swing = 0.0;
+  // 2 mm within the finger on its one side, 3 mm on its other.
+  for (const auto& [gap, way] : {std::pair{"0.008", 0.002}, std::pair{"-0.007", -0.003}}) {
+    at_.gap = gap;
+    at_.write_all();
+    for (const auto& effects :
+         {std::vector<std::string>{},
+          std::vector<std::string>{"{name: reaction, joint_stiffness: 2000}"}}) {
+      const SceneReadings readings = readings_of(at_.read(), effects);
+      ASSERT_TRUE(readings.healthy);
+      const Eigen::VectorXd push = readings.wrenches[0].col(1);
+      EXPECT_NEAR(push[0], -stiffness * way, 0.15 * stiffness * std::abs(way)) << gap;
+      // It stands there: nothing is thrown out. Joints that give way do so in the first step.
+      const double change = effects.empty() ? 0.05 : 0.12;
+      EXPECT_LT((push.array() - push[0]).abs().maxCoeff(), change * std::abs(push[0])) << gap;
+    }
+  }
+}
+
 // What the stem exerts on the finger, less the finger's own weight: in the finger's frame.
 Vec3 push_of(const SceneReadings& readings, long row) {
   return readings.wrenches[0].row(row).head<3>().transpose() + Vec3(0, 0, 0.05 * g);
