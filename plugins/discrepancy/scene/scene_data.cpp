@@ -175,6 +175,18 @@ void SceneDataSet::residual(int trial, const SceneReadings& readings, double unt
       });
 }
 
+std::vector<int> SceneDataSet::stretches(int trial, double length) const {
+  std::vector<int> out;
+  for_each_channel(
+      experiment_->trials[static_cast<std::size_t>(trial)], nullptr,
+      [&](const Samples& samples, const Eigen::MatrixXd*, long, SceneChannel kind) {
+        for (const double time : samples.time)
+          out.push_back(static_cast<int>((time - samples.time.front()) / length) * scene_channels +
+                        static_cast<int>(kind));
+      });
+  return out;
+}
+
 std::array<SceneDataSet::Sum, scene_channels> SceneDataSet::sums(
     int trial, const SceneReadings& readings) const {
   std::array<Sum, scene_channels> sums;

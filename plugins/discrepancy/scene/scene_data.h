@@ -36,6 +36,10 @@ class SceneDataSet {
   void residual(int trial, const SceneReadings& readings, double until,
                 Eigen::Ref<Eigen::VectorXd> out) const;
 
+  /// Of each entry of residual(), the number of its stretch, from 0 on: what instruments of one
+  /// kind say within `length` (s).
+  std::vector<int> stretches(int trial, double length) const;
+
   struct Sum {
     double square = 0.0;
     int count = 0;

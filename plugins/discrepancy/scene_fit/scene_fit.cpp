@@ -244,6 +244,23 @@ void widen_errors(SceneFitResult& fit, const Eigen::MatrixXd& off) {
     fit.standard_error[p] = std::hypot(fit.standard_error[p], moved.row(p).norm());
 }
 
+void raise_errors(SceneFitResult& fit, std::span<const int> stretch) {
+  const long n = fit.jacobian.cols();
+  if (n == 0 || stretch.empty()) return;
+  // What each stretch alone would pull the numbers by. At the minimum they hold each other.
+  Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(n, *std::ranges::max_element(stretch) + 1);
+  for (std::size_t i = 0; i < stretch.size(); ++i)
+    pull.col(stretch[i]) +=
+        fit.jacobian.row(static_cast<long>(i)).transpose() * fit.residual[static_cast<long>(i)];
+  const auto count = static_cast<double>((pull.colwise().squaredNorm().array() > 0.0).count());
+  if (count <= static_cast<double>(n)) return;
+  // The fit took a part of it away, as of a variance about a mean.
+  const double taken = std::sqrt(count / (count - static_cast<double>(n)));
+  const Eigen::MatrixXd moved = taken * covariance_of(fit) * pull;
+  for (long p = 0; p < n; ++p)
+    fit.standard_error[p] = std::max(fit.standard_error[p], moved.row(p).norm());
+}
+
 Between between(const SceneFitResult& one, const SceneFitResult& other) {
   const Eigen::VectorXd way = other.residual - one.residual;
   const double length = way.norm();

@@ -61,6 +61,11 @@ SceneFitResult look_at(SceneEvaluator& evaluator, const Hypothesis& model,
 /// noise over the residual's entries, for each reason; all of a column is off together.
 void widen_errors(SceneFitResult& fit, const Eigen::MatrixXd& off);
 
+/// Raises the standard errors to what stretches of the residual say that keep together: what a
+/// model leaves keeps its sign for a while, and does not average out as white noise does (the
+/// sandwich of clustered data; Liang and Zeger 1986). `stretch`: its number, of each entry.
+void raise_errors(SceneFitResult& fit, std::span<const int> stretch);
+
 /// Where data lie on the straight way between what two models foretell: 0 as one does, 1 as the
 /// other.
 struct Between {

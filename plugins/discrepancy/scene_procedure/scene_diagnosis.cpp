@@ -169,6 +169,14 @@ class Procedure {
 
   void doubt(SceneFitResult& fit) {
     if (stopped() || late()) return;
+    std::vector<int> stretch;
+    for (const int t : out_.fit_trials) {
+      // Trials have none in common.
+      const int next = stretch.empty() ? 0 : *std::ranges::max_element(stretch) + 1;
+      for (const int one : data_.stretches(t, options_.settings.search.rest_stretch))
+        stretch.push_back(next + one);
+    }
+    raise_errors(fit, stretch);
     widen_errors(fit, doubts(fit.model.effects));
     doubt_place(fit);
   }

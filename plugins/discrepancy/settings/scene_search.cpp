@@ -99,6 +99,10 @@ void add_effort(SceneSearchSettings& s, SettingRows& rows) {
              {budget, scene_time, "Searches take longer."});
   rows.count("polishing", s.polishing, "Iterations with the mesh that judges.",
              {budget, "the search has found the valley", "The last fit takes longer."});
+  rows.measure(
+      "rest_stretch", "s", s.rest_stretch,
+      "How long what a model leaves is taken to keep its sign, for intervals.",
+      {derived, "a part of a touch", "Intervals are wider, and less sure of their width."});
   rows.count("renewals", s.renewals,
              "Times that the noise of predictions is taken anew for an unseen plant's place.",
              {budget, scene_time, "Such diagnoses take longer."});

@@ -35,6 +35,7 @@ struct SceneSearchSettings {
   int first_iterations = 4;
   int last_iterations = 4;
   int polishing = 3;
+  double rest_stretch = 0.2;  ///< s
   int renewals = 3;
   int tried = 16;
   int refits = 4;

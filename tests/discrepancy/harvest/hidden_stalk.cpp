@@ -54,7 +54,8 @@ void look_at_holds(StalkTold& stalk, const SceneDiagnosis& found, const std::vec
     }
 }
 
-void look_at_attachment(StalkTold& stalk, const SceneDiagnosis& found) {
+void look_at_attachment(StalkTold& stalk, const SceneDiagnosis& found,
+                        const std::vector<Run>& runs) {
   const Setting& s = stalk.pushed;
   scene_case::Vec3 off, said_way, way;
   bool is_inside = true;
@@ -69,6 +70,13 @@ void look_at_attachment(StalkTold& stalk, const SceneDiagnosis& found) {
     is_inside = is_inside && holds(said->second, truth);
   }
   stalk.attachment = Told{off.norm(), is_inside};
+  // As from the first push, of the stalk as it stands.
+  const scene_case::Drive push = drives_of(s).front();
+  const double hold = runs.front().pushed[runs.front().step(0.5 * (push.time[1] + push.time[2]))];
+  const scene_case::Vec3 down(0.0, 0.0, -hold);
+  stalk.bearing =
+      Told{std::acos(std::clamp(down.normalized().dot((down + off).normalized()), -1.0, 1.0)),
+           is_inside};
   const Eigen::Vector2d a = said_way.head<2>(), b = way.head<2>();
   stalk.direction = Told{std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b))), is_inside};
 }
@@ -176,7 +184,7 @@ StalkTold look_at_stalk(const std::filesystem::path& folder, std::uint64_t seed,
   stalk.outcome = to_string(found.verdict.outcome);
   stalk.findings = found.text;
   look_at_holds(stalk, found, pushes);
-  look_at_attachment(stalk, found);
+  look_at_attachment(stalk, found, pushes);
   look_at_modulus(stalk, found);
   look_at_moments(stalk, read(folder / "pulls"), pulls);
   return stalk;
@@ -185,9 +193,10 @@ StalkTold look_at_stalk(const std::filesystem::path& folder, std::uint64_t seed,
 std::string table(const std::vector<StalkTold>& stalks) {
   std::string text =
       "| stalk | length, radius, mm | modulus, MPa | moved by, mm | verdict | hold off, mm | "
-      "attachment off, mm | its direction off, degrees | modulus off, % | detachment off, ms |\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n";
-  Count holds, attachments, directions, moduli, moments;
+      "attachment off, mm | bearing off, degrees | displacement's direction off, degrees | modulus "
+      "off, % | detachment off, ms |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n";
+  Count holds, attachments, bearings, directions, moduli, moments;
   for (const StalkTold& one : stalks) {
     const Setting& s = one.pushed;
     const double moved = std::hypot(hidden_number(s, "plant_pose", "offset", 0.0, 0),
@@ -197,10 +206,12 @@ std::string table(const std::vector<StalkTold>& stalks) {
             number(1e-6 * s.modulus * hidden_number(s, "youngs_modulus", "factor", 1.0), 3) +
             " | " + number(1e3 * moved, 3) + " | " + one.outcome + " | " + cell(one.hold, 1e3) +
             " | " + cell(one.attachment, 1e3) + " | " +
+            cell(one.bearing, 180.0 / std::numbers::pi) + " | " +
             cell(one.direction, 180.0 / std::numbers::pi) + " | " + cell(one.modulus, 100.0) +
             " | " + cell(one.moment, 1e3) + " |\n";
     holds.add(one.hold, static_cast<std::size_t>(s.trials), hold_aim);
     attachments.add(one.attachment, hold_aim);
+    bearings.add(one.bearing, direction_aim);
     directions.add(one.direction, direction_aim);
     moduli.add(one.modulus, modulus_aim);
     moments.add(one.moment, static_cast<std::size_t>(one.pulled.trials), moment_aim);
@@ -209,6 +220,7 @@ std::string table(const std::vector<StalkTold>& stalks) {
          "| what | within the aim, 95 % by Wilson | intervals that hold the truth "
          "|\n|---|---|---|\n" +
          holds.line("place of hold, 1 cm") + attachments.line("attachment, 1 cm") +
+         bearings.line("bearing of the attachment from the hold, 5 degrees") +
          directions.line("direction in which it is displaced, 5 degrees") +
          moduli.line("modulus, 5 %") + moments.line("moment of detachment, 30 ms");
 }

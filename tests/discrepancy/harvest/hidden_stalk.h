@@ -24,6 +24,7 @@ struct StalkTold {
   std::string outcome;
   std::vector<Told> hold;          ///< m, along the stem: by push
   std::optional<Told> attachment;  ///< m, distance; inside where each of three axes is
+  std::optional<Told> bearing;     ///< rad, of the way from where the tool holds to the attachment
   std::optional<Told> direction;   ///< rad, of the way from the files' place to the told one
   std::optional<Told> modulus;     ///< 1, relative
   std::vector<Told> moment;        ///< s, when the force breaks off: by pull
