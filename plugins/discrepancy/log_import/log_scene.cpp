@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/io/common_folder.h"
 #include "pedicel/plant/leaf_template.h"
 #include "pedicel/robot/kinematics.h"
 #include "pedicel/urdf/urdf_reader.h"
@@ -52,19 +53,6 @@ void read_plant(LogScene& out, const world::ScenePlant& plant, Diagnostics& diag
   out.plants.push_back(std::move(*file));
 }
 
-/// The folder that holds all of them.
-fs::path common_folder(const std::vector<fs::path>& files) {
-  fs::path folder = files.front().parent_path();
-  for (const fs::path& file : files) {
-    while (true) {
-      const fs::path beside = file.lexically_relative(folder);
-      if (!beside.empty() && *beside.begin() != "..") break;
-      folder = folder.parent_path();
-    }
-  }
-  return folder;
-}
-
 }  // namespace
 
 LogScene read_log_scene(const fs::path& file) {
@@ -88,7 +76,7 @@ LogScene read_log_scene(const fs::path& file) {
 }
 
 fs::path copy_scene(const LogScene& scene, const fs::path& folder) {
-  const fs::path from = common_folder(scene.files);
+  const fs::path from = io::common_folder(scene.files);
   for (const fs::path& file : scene.files) {
     const fs::path to = folder / file.lexically_relative(from);
     std::error_code fault;

@@ -128,7 +128,8 @@ std::optional<SceneExperiment> read_scene_experiment(const std::filesystem::path
                                                      const std::filesystem::path& scene = {});
 
 /// The trials' tables and experiment.yaml, as a folder that read_scene_experiment() reads back; the
-/// scene's own files are copied from `experiment.folder`. Throws io::WriteError.
+/// scene's own files are copied along: below `model` where they are not all below the scene's
+/// folder. Throws io::WriteError, and UsageError where the scene's path leads out of the folder.
 void write_scene_experiment(const std::filesystem::path& folder, const SceneExperiment& experiment);
 
 /// Columns of joints by their degrees of freedom: names in the order of the robot's model.

@@ -1,8 +1,9 @@
-#include <set>
+#include <algorithm>
 
 #include "pedicel/core/check.h"
 #include "pedicel/discrepancy/scene/scene_tables.h"
 #include "pedicel/io/atomic_file.h"
+#include "pedicel/io/common_folder.h"
 #include "pedicel/io/csv.h"
 #include "pedicel/io/text_file.h"
 #include "pedicel/plant/leaf_template.h"
@@ -99,10 +100,10 @@ std::string trial_text(const SceneExperiment& experiment, const SceneTrial& tria
   return text + effects_text(trial.effects, "    ");
 }
 
-std::string experiment_text(const SceneExperiment& experiment) {
+std::string experiment_text(const SceneExperiment& experiment, const fs::path& scene) {
   std::string text = "format: pedicel-experiment\nversion: 1\n";
   if (!experiment.title.empty()) text += "title: " + yaml_word(experiment.title) + "\n";
-  text += "scene: " + yaml_word(experiment.scene_path.string()) + "\n";
+  text += "scene: " + yaml_word(scene.string()) + "\n";
   text += instruments_text(experiment) + noise_text(experiment.noise) +
           effects_text(experiment.effects, "") + "trials:\n";
   for (const SceneTrial& trial : experiment.trials) text += trial_text(experiment, trial);
@@ -117,20 +118,25 @@ std::vector<std::string> columns_of(const SceneExperiment& experiment,
   return names;
 }
 
-/// All files that a scene names, its own first.
-std::set<fs::path> files_of(const SceneExperiment& experiment) {
-  std::set<fs::path> files = {experiment.scene.file, experiment.scene.robot->file};
+/// All files that a scene names, its own first; each once, absolute.
+std::vector<fs::path> files_of(const SceneExperiment& experiment) {
+  std::vector<fs::path> files;
+  const auto add = [&](const fs::path& file) {
+    if (file.empty()) return;
+    const fs::path plain = fs::weakly_canonical(file);
+    if (std::ranges::find(files, plain) == files.end()) files.push_back(plain);
+  };
+  add(experiment.scene.file);
+  add(experiment.scene.robot->file);
   for (const robot::Link& link : experiment.robot.links) {
-    for (const robot::Collision& shape : link.collisions)
-      if (!shape.geometry.mesh_file.empty()) files.insert(shape.geometry.mesh_file);
-    for (const robot::Visual& shape : link.visuals)
-      if (!shape.geometry.mesh_file.empty()) files.insert(shape.geometry.mesh_file);
+    for (const robot::Collision& shape : link.collisions) add(shape.geometry.mesh_file);
+    for (const robot::Visual& shape : link.visuals) add(shape.geometry.mesh_file);
   }
   for (const ScenePlantFile& plant : experiment.plants) {
-    files.insert(plant.path);
+    add(plant.path);
     for (const plant::PlantLeaf& leaf : plant.file.leaves)
       if (const auto file = plant::find_leaf_template(leaf.leaf_template, plant.file.leaf_folders))
-        files.insert(*file);
+        add(*file);
   }
   return files;
 }
@@ -157,19 +163,23 @@ void write_scene_tables(const fs::path& folder, const SceneExperiment& experimen
 }
 
 void write_scene_experiment(const fs::path& folder, const SceneExperiment& experiment) {
-  const fs::path from = fs::weakly_canonical(experiment.scene.file).parent_path();
-  const fs::path to = folder / experiment.scene_path.parent_path();
-  for (const fs::path& file : files_of(experiment)) {
-    const fs::path beside = fs::weakly_canonical(file).lexically_relative(from);
-    if (beside.empty() || *beside.begin() == "..")
-      throw UsageError(file.string() + " is not below the folder of its scene, " + from.string() +
-                       ": expected there what an experiment carries along");
-    io::write_file_atomically(to / beside, io::read_text_file(file));
-  }
+  const std::vector<fs::path> files = files_of(experiment);
+  const fs::path home = files.front().parent_path(), common = io::common_folder(files);
+  // A scene that lies beside or above what it names keeps its place in the folder. Around any other
+  // one the folders are made as they are where it comes from.
+  const fs::path scene = common == home
+                             ? experiment.scene_path
+                             : fs::path("model") / files.front().lexically_relative(common);
+  if (scene.is_absolute() || *scene.lexically_normal().begin() == "..")
+    throw UsageError("the scene " + scene.string() +
+                     " is outside of its experiment, expected it in the folder");
+  for (const fs::path& file : files)
+    io::write_file_atomically(folder / scene.parent_path() / file.lexically_relative(home),
+                              io::read_text_file(file));
   for (const SceneTrial& trial : experiment.trials)
     write_scene_tables(folder / trial.name, experiment, trial);
   // Last, so that a folder with an experiment.yaml is whole.
-  io::write_file_atomically(folder / "experiment.yaml", experiment_text(experiment));
+  io::write_file_atomically(folder / "experiment.yaml", experiment_text(experiment, scene));
 }
 
 }  // namespace pedicel::discrepancy

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 
 #include "arm_at_stem.h"
+#include "pedicel/core/check.h"
 #include "pedicel/discrepancy/scene/scene_data.h"
 #include "pedicel/discrepancy/scene/scene_experiment_keys.h"
 #include "pedicel/discrepancy/scene/scene_observe.h"
+#include "pedicel/io/text_file.h"
 #include "support/described_keys.h"
 
 namespace pedicel::discrepancy {
@@ -161,6 +163,39 @@ TEST_F(SceneExperimentFiles, WhatIsObservedIsReadBackAndFitsItsOwnModel) {
     ++kinds;
   }
   EXPECT_EQ(kinds, 5);
+}
+
+// As `import` leaves them: the scene deep in the folder, and what it names beside it.
+TEST_F(SceneExperimentFiles, ASceneDeepInItsFolderIsWrittenWithWhatItNames) {
+  at_.write_all();
+  std::string scene = io::read_text_file(at_.path() / "scene.yaml");
+  for (const std::string name : {"plant.yaml", "arm.urdf"}) {
+    at_.write("model/parts/" + name, io::read_text_file(at_.path() / name));
+    scene.replace(scene.find("file: " + name), 6 + name.size(), "file: ../parts/" + name);
+  }
+  at_.write("model/scenes/scene.yaml", scene);
+  at_.write("experiment.yaml",
+            "format: pedicel-experiment\nversion: 1\nscene: model/scenes/scene.yaml\n" +
+                at_.instruments + at_.trials);
+  const TemporaryFolder out;
+  write_scene_experiment(out / "made", at_.read());
+  Diagnostics diagnostics;
+  EXPECT_TRUE(read_scene_experiment(out / "made", diagnostics)) << diagnostics.text();
+  // A scene from elsewhere is carried along with its folders.
+  const auto shipped =
+      read_scene_experiment(at_.path(), diagnostics, at_.path() / "model/scenes/scene.yaml");
+  ASSERT_TRUE(shipped) << diagnostics.text();
+  write_scene_experiment(out / "other", *shipped);
+  EXPECT_TRUE(read_scene_experiment(out / "other", diagnostics)) << diagnostics.text();
+  EXPECT_TRUE(std::filesystem::exists(out / "other/model/scenes/scene.yaml"));
+  // Nothing is written outside of the folder.
+  SceneExperiment outside = *shipped;
+  outside.scene.file = at_.path() / "scene.yaml";
+  outside.robot = {};
+  outside.scene.robot->file = at_.path() / "arm.urdf";
+  outside.plants.front().path = at_.path() / "plant.yaml";
+  outside.scene_path = "../scene.yaml";
+  EXPECT_THROW(write_scene_experiment(out / "third", outside), UsageError);
 }
 
 }  // namespace
