@@ -134,8 +134,10 @@ std::vector<fs::path> files_of(const SceneExperiment& experiment) {
   }
   for (const ScenePlantFile& plant : experiment.plants) {
     add(plant.path);
+    // What is shipped with the program is found without being carried along.
     for (const plant::PlantLeaf& leaf : plant.file.leaves)
-      if (const auto file = plant::find_leaf_template(leaf.leaf_template, plant.file.leaf_folders))
+      if (const auto file = plant::find_leaf_template(leaf.leaf_template,
+                                                      {fs::absolute(plant.path).parent_path()}))
         add(*file);
   }
   return files;
