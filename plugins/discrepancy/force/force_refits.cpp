@@ -96,6 +96,7 @@ std::vector<plant::Effect> stops_along(const plant::Effect& stop, const MarkerCh
     }
     if (heights.empty()) continue;
     std::ranges::sort(heights);
+    // Not the highest of all: of a swing that comes in elsewhere one sample may stand far out.
     const double face = heights[heights.size() * 9 / 10];
     double depth_there = 0.0;
     for (const double height : heights) depth_there += std::max(0.0, face - height);
@@ -243,7 +244,7 @@ FitSummary ForceRefits::moved_along(FitSummary found, const FitOptions& few) {
   const auto motion = evaluator_.predictions(std::vector{found.hypothesis}, options_.fit);
   std::vector<Hypothesis> starts;
   for (const plant::Effect& moved : stops_along(stop, *chain, motion.front()))
-    // A stop found elsewhere is about as hard as the markers were stopped, and no more.
+    // How hard it is there is known to a factor: markers say where the plant was, not the force.
     for (const double factor : {0.5, 1.0, 2.0}) {
       Hypothesis start = found.hypothesis;
       start.effects.back() = moved;

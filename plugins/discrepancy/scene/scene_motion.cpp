@@ -445,13 +445,16 @@ class SceneRun {
   // A stem that stands where the arm begins leans on it: what was measured overlapped nowhere.
   void lean_on_arm(std::size_t p, cosserat::RodState& state, GivingSource& source) {
     if (!source.overlaps_arm(models_[p], state)) return;
-    leans_ = true;
+    const cosserat::RodState standing = state;
     cosserat::ContactSource* const contact = &source;
     // How far a joint gives way is known in a step alone, and the first one moves it there.
     const bool gives = std::exchange(arm_.gives, false);
-    if (!find_equilibrium(models_[p], state, experiment_.scene.gravity, {}, {&contact, 1}))
-      motion_.healthy = false;
+    leans_ = find_equilibrium(models_[p], state, experiment_.scene.gravity, {}, {&contact, 1});
     arm_.gives = gives;
+    if (leans_) return;
+    // Where it finds no rest the two do not touch, as in a run.
+    state = standing;
+    source.inner().ignore_touching(models_[p], state);
   }
 
   cosserat::RodState first_state(std::size_t p) const {
