@@ -10,6 +10,10 @@ namespace pedicel::discrepancy {
 
 namespace {
 
+/// Of the changes just before it: how far from them a wrench jumps at a break. And of the usual
+/// time between two samples: what is no gap of the record.
+constexpr double stands_out = 2.0, longest_gap = 3.0;
+
 /// Force and moment of the contact alone, in the sensor's frame, over time.
 struct Felt {
   std::vector<double> time;
@@ -21,6 +25,12 @@ struct Felt {
     return most;
   }
 };
+
+// s, on average between two samples.
+double sample_of(const Felt& felt) {
+  return (felt.time.back() - felt.time.front()) /
+         static_cast<double>(std::max<std::size_t>(1, felt.time.size() - 1));
+}
 
 Felt less(const Samples& measured, const Eigen::MatrixXd& own) {
   Felt felt;
@@ -296,7 +306,9 @@ class RobotAlone {
   struct Jump {
     Vec3 force = Vec3::Zero();  // N, in the sensor's frame
     double before = 0.0;        // N, the force that there was
-    double deviations = 0.0;    // of the noise, force and moment together
+    Eigen::Vector<double, 6> scaled =
+        Eigen::Vector<double, 6>::Zero();  // force, moment: of the noise
+    double deviations() const { return scaled.norm(); }
   };
   // Of a fast sensor several samples are taken together on each side.
   Jump jump_at(const Felt& felt, std::size_t i) const {
@@ -308,9 +320,8 @@ class RobotAlone {
     Jump jump;
     jump.force = after.force - before.force;
     jump.before = before.force.norm();
-    jump.deviations =
-        std::sqrt(samples) * std::hypot(jump.force.norm() / force_std_,
-                                        (after.moment - before.moment).norm() / moment_std_);
+    jump.scaled << jump.force / force_std_, (after.moment - before.moment) / moment_std_;
+    jump.scaled *= std::sqrt(samples);
     return jump;
   }
 
@@ -318,21 +329,31 @@ class RobotAlone {
   // tool may touch the stem again at once.
   void tell_break(const SceneTrial& trial, const Felt& felt) {
     std::vector<Jump> jumps(felt.time.size());
-    const double held = how_.break_share * felt.largest();
-    std::size_t largest = 0;
-    for (std::size_t i = 1; i < felt.time.size(); ++i) {
-      jumps[i] = jump_at(felt, i);
-      // A touch that begins is a jump, too.
-      if (jumps[i].before < held) jumps[i].deviations = 0.0;
-      if (jumps[i].deviations > jumps[largest].deviations) largest = i;
+    for (std::size_t i = 1; i < jumps.size(); ++i) jumps[i] = jump_at(felt, i);
+    const double gap = longest_gap * sample_of(felt);
+    // Of what was felt until then: afterwards a tool may run into something else.
+    double most_held = how_.least_push * force_std_ / how_.break_share, largest = 0.0;
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < jumps.size(); ++i) {
+      most_held = std::max(most_held, felt.force[i - 1].norm());
+      // A touch that begins is a jump, too, and so is what changes over a gap of the record.
+      if (jumps[i].deviations() < how_.break_deviations ||
+          jumps[i].before < how_.break_share * most_held || felt.time[i] - felt.time[i - 1] > gap)
+        continue;
+      // A push may grow as fast, in the same direction from sample to sample.
+      const double before =
+          std::max(jumps[i - 1].deviations(), jumps[i - (i > 1 ? 2 : 1)].deviations());
+      if ((jumps[i].scaled - jumps[i - 1].scaled).norm() < stands_out * before) continue;
+      // What swings afterwards may jump farther than what has come off.
+      double after = 0.0;
+      for (std::size_t k = i; k < jumps.size() && felt.time[k] < felt.time[i] + how_.around_break;
+           ++k)
+        after = std::max(after, jumps[k].deviations());
+      if (after <= largest) continue;
+      largest = after;
+      first = i;
     }
-    if (jumps[largest].deviations < how_.break_deviations) return;
-    // What swings afterwards may jump farther than what has come off.
-    std::size_t first = largest;
-    for (std::size_t i = largest; i > 0; --i)
-      if (felt.time[i] > felt.time[largest] - how_.around_break &&
-          jumps[i].deviations >= how_.break_deviations)
-        first = i;
+    if (first == 0) return;
     // Between the two samples, anywhere.
     const double sample = felt.time[first] - felt.time[first - 1];
     SymptomNumber said;

@@ -20,7 +20,8 @@ void add_robot_alone(RobotAloneSettings& r, std::vector<DiagnosisSetting>& all) 
   rows.measure("break_window", "s", r.break_window,
                "Time of which samples are taken together on either side of a jump.",
                {derived, "less than a sample at 250 Hz", "Moments of breaks are less sharp."});
-  rows.share("break_share", r.break_share, "Of the largest force: what must be held at a break.",
+  rows.share("break_share", r.break_share,
+             "Of the largest force until then: what must be held at a break.",
              {derived, "a touch that begins jumps, too, from nothing",
               "Breaks of light pulls are not told."});
   rows.number("break_deviations", r.break_deviations,

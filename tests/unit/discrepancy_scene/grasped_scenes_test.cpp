@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosed_scene.h"
+#include "pedicel/discrepancy/scene_procedure/robot_alone.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -37,6 +38,29 @@ TEST_F(GraspedFruit, ComesOffWhereTheWrenchAloneSaysSo) {
       std::ranges::find(found.verdict.symptoms, "force_breaks_off", &SymptomNumber::name);
   ASSERT_NE(broke, found.verdict.symptoms.end()) << found.text;
   EXPECT_NEAR(broke->value, came_off(), 0.03);
+}
+
+// A slow sensor sees it grow in steps as large as jumps.
+TEST(RobotAlone, APushThatGrowsIsNoBreak) {
+  const ArmAtStem at;
+  at.write_all();
+  SceneExperiment made = observed_scene(at.read(), {}, {});
+  const SceneDataSet data(made);
+  const Samples all = made.trials.front().wrenches.front();
+  for (const long every : {1, 8}) {
+    Samples& kept = made.trials.front().wrenches.front();
+    kept = {};
+    for (long i = 0; i < all.size(); i += every) {
+      kept.time.push_back(all.time[static_cast<std::size_t>(i)]);
+      kept.value.conservativeResize(kept.size(), all.value.cols());
+      kept.value.row(kept.size() - 1) = all.value.row(i);
+    }
+    SceneSimulator simulator(made, {}, 1);
+    for (const SymptomNumber& one : robot_alone(simulator, {}, data.deviation(SceneChannel::force),
+                                                data.deviation(SceneChannel::moment), Vec3::Zero(),
+                                                default_scene_settings().robot))
+      EXPECT_NE(one.name, "force_breaks_off") << every << ": " << one.sentence;
+  }
 }
 
 TEST_F(GraspedFruit, AThresholdIsNamedWithItsFactor) {
