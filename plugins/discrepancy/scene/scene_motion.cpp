@@ -449,9 +449,11 @@ class SceneRun {
     cosserat::ContactSource* const contact = &source;
     // How far a joint gives way is known in a step alone, and the first one moves it there.
     const bool gives = std::exchange(arm_.gives, false);
-    leans_ = find_equilibrium(models_[p], state, experiment_.scene.gravity, {}, {&contact, 1});
+    const bool rests =
+        find_equilibrium(models_[p], state, experiment_.scene.gravity, {}, {&contact, 1});
     arm_.gives = gives;
-    if (leans_) return;
+    leans_ = leans_ || rests;  // of several plants one is enough
+    if (rests) return;
     // Where it finds no rest the two do not touch, as in a run.
     state = standing;
     source.inner().ignore_touching(models_[p], state);
@@ -483,7 +485,10 @@ class SceneRun {
     }
     record_held(rods, row);
     // Before the first step no force is known.
-    if (row == 1 && leans_) motion_.contact.row(0) = motion_.contact.row(1);
+    if (row == 1 && leans_) {
+      motion_.contact.row(0) = motion_.contact.row(1);
+      motion_.effort.row(0) = motion_.effort.row(1);
+    }
     if (!arm_.gives) return;
     joints_.end_step(motion_.effort.row(row).transpose());
     motion_.given.row(row) = joints_.row();
