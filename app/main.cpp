@@ -1,5 +1,5 @@
-#include "pedicel/app/verbs/cli.h"
-#include "pedicel/app/window/open_desktop.h"
+#include "app/verbs/cli.h"
+#include "app/window/open_desktop.h"
 
 int main(int argc, char** argv) {
   using namespace pedicel::app;

@@ -1,7 +1,7 @@
 // The program without its window's rooms (PEDICEL_WINDOW=OFF).
 #include <cstdio>
 
-#include "pedicel/app/verbs/cli.h"
+#include "app/verbs/cli.h"
 
 namespace {
 

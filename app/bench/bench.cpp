@@ -1,17 +1,17 @@
-#include "pedicel/app/bench/bench.h"
+#include "app/bench/bench.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/app/bench/process_memory.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/ring_down.h"
-#include "pedicel/core/timer.h"
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/plant/reference_plants.h"
+#include "app/bench/process_memory.h"
+#include "engine/core/check.h"
+#include "engine/core/ring_down.h"
+#include "engine/core/timer.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/plant/reference_plants.h"
 
 namespace pedicel::app {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cosserat/solver/rod_system.h"
+#include "plugins/cosserat/solver/rod_system.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/bench/parallel_worlds.h"
+#include "app/bench/parallel_worlds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "pedicel/app/bench/process_memory.h"
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/core/timer.h"
+#include "app/bench/process_memory.h"
+#include "engine/core/check.h"
+#include "engine/core/thread_pool.h"
+#include "engine/core/timer.h"
+#include "plugins/simulation/scene_assets.h"
 
 namespace pedicel::app {
 
@@ -38,7 +38,8 @@ class RodWorld : public ParallelWorld {
 
 class SceneWorld : public ParallelWorld {
  public:
-  explicit SceneWorld(std::shared_ptr<const SceneAssets> assets) : simulation_(std::move(assets)) {}
+  explicit SceneWorld(std::shared_ptr<const simulation::SceneAssets> assets)
+      : simulation_(std::move(assets)) {}
   void step() override {
     if (!fatal_errors_) fatal_errors_ = simulation_.step().errors & world::fatal_errors;
   }
@@ -48,7 +49,7 @@ class SceneWorld : public ParallelWorld {
   }
 
  private:
-  Simulation simulation_;
+  simulation::Simulation simulation_;
   unsigned fatal_errors_ = 0;
 };
 
@@ -92,10 +93,10 @@ MakeWorld rod_worlds(const BenchOptions& options) {
   return [options, plants] { return std::make_unique<RodWorld>(options, *plants); };
 }
 
-MakeWorld scene_worlds(const world::Scene& scene, const SimulationOptions& options) {
+MakeWorld scene_worlds(const world::Scene& scene, const simulation::SimulationOptions& options) {
   world::Scene single = scene;
   single.threads = 1;
-  const auto assets = std::make_shared<const SceneAssets>(single, options);
+  const auto assets = std::make_shared<const simulation::SceneAssets>(single, options);
   return [assets] { return std::make_unique<SceneWorld>(assets); };
 }
 

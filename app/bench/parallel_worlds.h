@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "pedicel/app/bench/bench.h"
-#include "pedicel/app/run/simulation.h"
+#include "app/bench/bench.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -28,7 +28,7 @@ using MakeWorld = std::function<std::unique_ptr<ParallelWorld>()>;
 MakeWorld rod_worlds(const BenchOptions& options);
 
 /// Worlds of a scene: a whole Simulation each, with one thread. Throws InvalidFile.
-MakeWorld scene_worlds(const world::Scene& scene, const SimulationOptions& options);
+MakeWorld scene_worlds(const world::Scene& scene, const simulation::SimulationOptions& options);
 
 struct WorldsOptions {
   int worlds = 1, threads = 1;

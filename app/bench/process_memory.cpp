@@ -1,4 +1,4 @@
-#include "pedicel/app/bench/process_memory.h"
+#include "app/bench/process_memory.h"
 
 #include <unistd.h>
 

@@ -1,9 +1,9 @@
-#include "pedicel/app/dataset/annotations.h"
+#include "app/dataset/annotations.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/dataset/run_length.h"
+#include "app/dataset/run_length.h"
 
 namespace pedicel::app {
 
@@ -105,7 +105,8 @@ PictureLabels annotate(const SensedPicture& picture, const NamedThings& things,
   return labels;
 }
 
-std::vector<bool> detached_things(const Simulation& simulation, const NamedThings& things) {
+std::vector<bool> detached_things(const simulation::Simulation& simulation,
+                                  const NamedThings& things) {
   std::vector<bool> gone(things.all().size(), false);
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);

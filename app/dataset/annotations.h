@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pedicel/app/sense/picture_files.h"
+#include "app/sense/picture_files.h"
 
 namespace pedicel::app {
 
@@ -22,6 +22,7 @@ PictureLabels annotate(const SensedPicture& picture, const NamedThings& things,
                        const std::vector<long>& alone, const std::vector<bool>& detached);
 
 /// By label: fruits that came off, and stalks of which a part went with one.
-std::vector<bool> detached_things(const Simulation& simulation, const NamedThings& things);
+std::vector<bool> detached_things(const simulation::Simulation& simulation,
+                                  const NamedThings& things);
 
 }  // namespace pedicel::app

@@ -1,8 +1,8 @@
-#include "pedicel/app/dataset/contact_sheet.h"
+#include "app/dataset/contact_sheet.h"
 
 #include <algorithm>
 
-#include "pedicel/render/text.h"
+#include "engine/render/text.h"
 
 namespace pedicel::app {
 

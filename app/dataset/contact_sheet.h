@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/render/image.h"
+#include "engine/render/image.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/dataset/data_set.h"
+#include "app/dataset/data_set.h"
 
 #include <unistd.h>
 
@@ -6,16 +6,16 @@
 #include <cstdio>
 #include <memory>
 
-#include "pedicel/app/dataset/annotations.h"
-#include "pedicel/app/dataset/data_set_files.h"
-#include "pedicel/app/dataset/split.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/app/sense/scene_sensors.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/core/timer.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/settings.h"
+#include "app/dataset/annotations.h"
+#include "app/dataset/data_set_files.h"
+#include "app/dataset/split.h"
+#include "app/sense/scene_sensors.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/core/timer.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::app {
 
@@ -42,13 +42,13 @@ class Maker {
     world::Scene scene = options_.scene;
     scene.seed = options_.seed + static_cast<int>(picture);
     std::string why;
-    const std::unique_ptr<Simulation> built = build(scene, why);
+    const std::unique_ptr<simulation::Simulation> built = build(scene, why);
     if (built && !step_to(*built, time_of(scene.seed))) why = "its simulation is unstable";
     if (!why.empty()) {
       write(picture, {{"left_out", why}, {"seed", scene.seed}, {"drawn", drawn_json(scene)}});
       return why;
     }
-    Simulation& simulation = *built;
+    simulation::Simulation& simulation = *built;
     SceneSensors sensors(simulation);
     SenseRequest wanted{camera_of_picture(picture), options_.size, true, true};
     const SensedPicture seen =
@@ -71,16 +71,16 @@ class Maker {
  private:
   /// Null where what was drawn cannot stand. Where the scene cannot either, that is its own fault,
   /// and the end of the set.
-  std::unique_ptr<Simulation> build(const world::Scene& scene, std::string& why) {
+  std::unique_ptr<simulation::Simulation> build(const world::Scene& scene, std::string& why) {
     try {
-      return std::make_unique<Simulation>(scene, options_.simulation);
+      return std::make_unique<simulation::Simulation>(scene, options_.simulation);
     } catch (const InvalidFile& fault) {
       why = fault.what();
     }
     if (!scene_stands_) {
       world::Scene plain = options_.scene;
       plain.vary.clear();
-      Simulation alone(plain, options_.simulation);
+      simulation::Simulation alone(plain, options_.simulation);
       scene_stands_ = true;
     }
     return nullptr;
@@ -91,7 +91,7 @@ class Maker {
     return random.uniform(options_.at[0], options_.at[1]);
   }
 
-  bool step_to(Simulation& simulation, double time) const {
+  bool step_to(simulation::Simulation& simulation, double time) const {
     const long steps = std::lround(time / simulation.world().dt());
     for (long s = 0; s < steps; ++s)
       if (simulation.step().errors & world::fatal_errors) return false;

@@ -5,14 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/app/run/simulation.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
 /// A set of labelled pictures of a scene that varies.
 struct DataSetOptions {
   world::Scene scene;  ///< with what varies (`vary`)
-  SimulationOptions simulation;
+  simulation::SimulationOptions simulation;
   std::filesystem::path out;
   long count = 100;                             ///< pictures
   long first = 0;                               ///< the first of them that this run makes

@@ -1,16 +1,16 @@
-#include "pedicel/app/dataset/data_set_files.h"
+#include "app/dataset/data_set_files.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <map>
 
-#include "pedicel/app/dataset/annotations.h"
-#include "pedicel/app/dataset/contact_sheet.h"
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/sense/noise.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_writer.h"
+#include "app/dataset/annotations.h"
+#include "app/dataset/contact_sheet.h"
+#include "app/report/version.h"
+#include "app/sense/noise.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_writer.h"
 
 namespace pedicel::app {
 

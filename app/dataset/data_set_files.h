@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/app/dataset/data_set.h"
-#include "pedicel/app/sense/picture_files.h"
-#include "pedicel/io/output_check.h"
+#include "app/dataset/data_set.h"
+#include "app/sense/picture_files.h"
+#include "engine/io/output_check.h"
 
 namespace pedicel::app {
 

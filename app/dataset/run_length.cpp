@@ -1,4 +1,4 @@
-#include "pedicel/app/dataset/run_length.h"
+#include "app/dataset/run_length.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pedicel/render/label_map.h"
+#include "engine/render/label_map.h"
 
 namespace pedicel::app {
 

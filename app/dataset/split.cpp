@@ -1,6 +1,6 @@
-#include "pedicel/app/dataset/split.h"
+#include "app/dataset/split.h"
 
-#include "pedicel/app/sense/noise.h"
+#include "app/sense/noise.h"
 
 namespace pedicel::app {
 

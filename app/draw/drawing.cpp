@@ -1,4 +1,4 @@
-#include "pedicel/app/draw/drawing.h"
+#include "app/draw/drawing.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "pedicel/geometry/primitives_mesh.h"
+#include "engine/geometry/primitives_mesh.h"
 
 namespace pedicel::app {
 

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/plants/blade.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/plant/model/plant_model.h"
-#include "pedicel/render/draw_list.h"
-#include "pedicel/robot/description.h"
-#include "pedicel/world/bodies.h"
+#include "engine/core/frames.h"
+#include "engine/render/draw_list.h"
+#include "engine/robot/description.h"
+#include "engine/world/bodies.h"
+#include "plugins/plant/model/plant_model.h"
+#include "plugins/simulation/plants/blade.h"
 
 /// From the things of a simulation to the draw list of one picture. Rigid things are prepared once,
 /// as a draw list in their own frame (a "shape" below), and added to every frame at their pose.

@@ -1,4 +1,4 @@
-#include "pedicel/app/draw/named_things.h"
+#include "app/draw/named_things.h"
 
 #include <array>
 
@@ -8,7 +8,7 @@ namespace {
 
 /// The leaf that a blade belongs to: two of its corners lie on it, since one may lie on what the
 /// leaf grows from.
-int leaf_of(const cosserat::RodModel& model, const Blade& blade) {
+int leaf_of(const cosserat::RodModel& model, const simulation::Blade& blade) {
   const int a = model.elements[static_cast<std::size_t>(blade[0].element)].organ;
   const int b = model.elements[static_cast<std::size_t>(blade[1].element)].organ;
   const int c = model.elements[static_cast<std::size_t>(blade[2].element)].organ;
@@ -16,7 +16,7 @@ int leaf_of(const cosserat::RodModel& model, const Blade& blade) {
 }
 
 std::vector<ThingClass> classes_of(const cosserat::RodModel& model,
-                                   const std::vector<Blade>& blades) {
+                                   const std::vector<simulation::Blade>& blades) {
   std::vector<ThingClass> kinds(model.organs.size(), ThingClass::branch);
   std::vector<char> carries_organ(model.organs.size(), 0), clamped(model.organs.size(), 0);
   for (const cosserat::Element& element : model.elements) {
@@ -38,7 +38,7 @@ std::vector<ThingClass> classes_of(const cosserat::RodModel& model,
   }
   for (std::size_t o = 0; o < kinds.size(); ++o)
     if (clamped[o]) kinds[o] = ThingClass::stem;
-  for (const Blade& blade : blades)
+  for (const simulation::Blade& blade : blades)
     kinds[static_cast<std::size_t>(leaf_of(model, blade))] = ThingClass::leaf;
   return kinds;
 }
@@ -51,11 +51,11 @@ std::string_view name_of(ThingClass kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-NamedThings::NamedThings(const Simulation& simulation) {
+NamedThings::NamedThings(const simulation::Simulation& simulation) {
   add("background", ThingClass::background);
   for (int p = 0; p < simulation.rods().size(); ++p) add_plant(simulation, p);
   first_link_ = static_cast<render::Label>(things_.size());
-  if (const RobotControl* robot = simulation.robot())
+  if (const simulation::RobotControl* robot = simulation.robot())
     for (const robot::Link& link : robot->description().links)
       add(robot->name() + "/" + link.name, ThingClass::robot);
   first_body_ = static_cast<render::Label>(things_.size());
@@ -64,15 +64,15 @@ NamedThings::NamedThings(const Simulation& simulation) {
   ground_ = add("ground", ThingClass::ground);
 }
 
-void NamedThings::add_plant(const Simulation& simulation, int plant) {
+void NamedThings::add_plant(const simulation::Simulation& simulation, int plant) {
   const cosserat::RodModel& model = simulation.rods().model(plant);
-  const PlantInfo& info = simulation.plants()[static_cast<std::size_t>(plant)];
+  const simulation::PlantInfo& info = simulation.plants()[static_cast<std::size_t>(plant)];
   const std::vector<ThingClass> kinds = classes_of(model, info.blades);
   first_organ_.push_back(static_cast<render::Label>(things_.size()));
   for (std::size_t o = 0; o < kinds.size(); ++o) add(model.organs[o], kinds[o], model.name);
   first_fruit_.push_back(static_cast<render::Label>(things_.size()));
   for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
-    add(fruit_name(model, f), ThingClass::fruit, model.name);
+    add(simulation::fruit_name(model, f), ThingClass::fruit, model.name);
 }
 
 render::Label NamedThings::add(std::string name, ThingClass kind, std::string plant) {

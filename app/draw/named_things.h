@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/render/draw_list.h"
+#include "engine/render/draw_list.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -29,7 +29,7 @@ struct NamedThing {
 /// nothing else, a stem is clamped or held, and what is left is a branch.
 class NamedThings {
  public:
-  explicit NamedThings(const Simulation& simulation);
+  explicit NamedThings(const simulation::Simulation& simulation);
 
   /// By label; the first one is the background.
   std::span<const NamedThing> all() const { return things_; }
@@ -45,7 +45,7 @@ class NamedThings {
   render::Label stub(const cosserat::RodModel& model, int plant, int fruit) const;
 
  private:
-  void add_plant(const Simulation& simulation, int plant);
+  void add_plant(const simulation::Simulation& simulation, int plant);
   render::Label add(std::string name, ThingClass kind, std::string plant = {});
 
   std::vector<NamedThing> things_;

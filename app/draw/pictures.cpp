@@ -1,4 +1,4 @@
-#include "pedicel/app/draw/pictures.h"
+#include "app/draw/pictures.h"
 
 namespace pedicel::app {
 

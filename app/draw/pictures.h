@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/render/offscreen.h"
-#include "pedicel/render/overlay.h"
-#include "pedicel/render/renderer.h"
-#include "pedicel/render/video.h"
-#include "pedicel/world/scene.h"
+#include "engine/render/offscreen.h"
+#include "engine/render/overlay.h"
+#include "engine/render/renderer.h"
+#include "engine/render/video.h"
+#include "engine/world/scene.h"
 
 namespace pedicel::app {
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/draw/plant_drawing.h"
+#include "app/draw/plant_drawing.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "pedicel/render/colormap.h"
+#include "engine/render/colormap.h"
 
 namespace pedicel::app {
 
@@ -94,15 +94,17 @@ PlantLook PlantLook::of(plant::Look look) {
   return look == plant::Look::apple ? apple() : tomato();
 }
 
-PlantDrawing::PlantDrawing(const RodModel& model, std::vector<Blade> blades, const PlantLook& look)
+PlantDrawing::PlantDrawing(const RodModel& model, std::vector<simulation::Blade> blades,
+                           const PlantLook& look)
     : model_(model),
       blades_(std::move(blades)),
       organ_labels_(model.organs.size(), 0),
       fruit_labels_(model.fruits.size(), 0),
       is_leaf_(model.organs.size(), 0),
       look_(look) {
-  for (const Blade& blade : blades_)
-    for (const BladeCorner& corner : blade) is_leaf_[model.elements[corner.element].organ] = 1;
+  for (const simulation::Blade& blade : blades_)
+    for (const simulation::BladeCorner& corner : blade)
+      is_leaf_[model.elements[corner.element].organ] = 1;
   for (std::size_t f = 0; f < model.fruits.size(); ++f)
     fruits_.push_back(fruit_shape(look.fruit, static_cast<int>(f), model.fruits[f].radius));
 }
@@ -139,9 +141,10 @@ std::vector<Colour> PlantDrawing::colours(const RodState& state,
                                           std::optional<double> strain_scale) const {
   std::vector<Colour> result(model_.elements.size());
   for (int e = 0; e < model_.size(); ++e)
-    result[e] = strain_scale && state.alive[e]
-                    ? render::strain_colour(surface_strain(model_, state, e) / *strain_scale)
-                    : material_of(e).colour;
+    result[e] =
+        strain_scale && state.alive[e]
+            ? render::strain_colour(simulation::surface_strain(model_, state, e) / *strain_scale)
+            : material_of(e).colour;
   return result;
 }
 
@@ -181,7 +184,7 @@ void PlantDrawing::add_fruits(DrawList& list, const RodState& state) const {
 }
 
 void PlantDrawing::add_blades(DrawList& list, const RodState& state) const {
-  for (const Blade& blade : blades_) {
+  for (const simulation::Blade& blade : blades_) {
     std::array<Vec3, 3> corner;
     bool whole = true;
     for (std::size_t k = 0; k < 3; ++k) {

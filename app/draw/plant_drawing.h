@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "pedicel/app/draw/drawing.h"
-#include "pedicel/app/plants/surface_strain.h"
-#include "pedicel/cosserat/model/rod_state.h"
+#include "app/draw/drawing.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/simulation/plants/surface_strain.h"
 
 namespace pedicel::app {
 
@@ -24,7 +24,7 @@ struct PlantLook {
 class PlantDrawing {
  public:
   /// The model must outlive it, and its fruits and organs stay as they are.
-  PlantDrawing(const cosserat::RodModel& model, std::vector<Blade> blades = {},
+  PlantDrawing(const cosserat::RodModel& model, std::vector<simulation::Blade> blades = {},
                const PlantLook& look = PlantLook::tomato());
 
   /// What organs and fruits are called in label maps; without it none has a name.
@@ -55,7 +55,7 @@ class PlantDrawing {
   }
 
   const cosserat::RodModel& model_;
-  std::vector<Blade> blades_;
+  std::vector<simulation::Blade> blades_;
   std::vector<render::Label> organ_labels_, fruit_labels_;
   std::vector<char> is_leaf_;             ///< one entry an organ
   std::vector<render::DrawList> fruits_;  ///< in the frames of the elements that carry them

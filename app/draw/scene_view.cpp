@@ -1,17 +1,18 @@
-#include "pedicel/app/draw/scene_view.h"
+#include "app/draw/scene_view.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "pedicel/app/draw/tint.h"
-#include "pedicel/app/run/place.h"
+#include "app/draw/tint.h"
+#include "plugins/simulation/place.h"
 
 namespace pedicel::app {
 
-SceneView::SceneView(const Simulation& simulation) : simulation_(simulation), things_(simulation) {
+SceneView::SceneView(const simulation::Simulation& simulation)
+    : simulation_(simulation), things_(simulation) {
   plants_.reserve(simulation.plants().size());
   for (int p = 0; p < simulation.rods().size(); ++p) {
-    const PlantInfo& plant = simulation.plants()[p];
+    const simulation::PlantInfo& plant = simulation.plants()[p];
     plants_.emplace_back(simulation.rods().model(p), plant.blades,
                          tinted(PlantLook::of(plant.look), simulation.scene().look));
     label_plant(p);
@@ -36,7 +37,7 @@ void SceneView::fill(Frame& frame, bool strain) {
   for (std::size_t p = 0; p < plants_.size(); ++p)
     plants_[p].add_to(frame.list, simulation_.rods().state(static_cast<int>(p)),
                       strain ? std::optional(strain_scale_) : std::nullopt);
-  for (const SceneTies::One& tie : simulation_.ties().all())
+  for (const simulation::SceneTies::One& tie : simulation_.ties().all())
     if (const auto course = simulation_.ties().course(tie))
       add_string(frame.list, course->from_W, course->to_W, course->length, twine);
   for (std::size_t l = 0; l < links_.size(); ++l) {
@@ -60,7 +61,7 @@ void SceneView::add_bodies(render::DrawList& list) {
     bodies_.push_back(body_shape(world.body(b)));
     if (b < static_cast<int>(simulation_.scene().bodies.size()))
       bodies_.back().label_since({}, things_.body(b));
-    for (const Detached& fruit : simulation_.plant_step().detached()) {
+    for (const simulation::Detached& fruit : simulation_.plant_step().detached()) {
       if (fruit.body != b) continue;
       const double radius = simulation_.rods().model(fruit.plant).fruits[fruit.event.fruit].radius;
       bodies_.back() = fruit_shape(
@@ -74,7 +75,7 @@ void SceneView::add_bodies(render::DrawList& list) {
 }
 
 /// The stub that came off with it goes on being its stalk.
-void SceneView::label_fruit(render::DrawList& shape, const Detached& fruit) const {
+void SceneView::label_fruit(render::DrawList& shape, const simulation::Detached& fruit) const {
   shape.label_since({}, things_.fruit(fruit.plant, fruit.event.fruit));
   const render::Label stub =
       things_.stub(simulation_.rods().model(fruit.plant), fruit.plant, fruit.event.fruit);
@@ -94,7 +95,7 @@ void SceneView::add_texts(Frame& frame, bool strain) const {
       const double used = cosserat::margin_used(model, simulation_.rods().state(p), f);
       if (used <= most) continue;
       most = used;
-      name = fruit_name(model, f);
+      name = simulation::fruit_name(model, f);
     }
   }
   if (most > 0.0) {
@@ -116,7 +117,7 @@ render::Camera SceneView::camera(const std::string& name, const Frame& frame) co
     if (!name.empty() && camera.name != name) continue;
     const auto anchor = camera.follow.kind == world::Anchor::Kind::none
                             ? std::nullopt
-                            : place_of(simulation_, camera.follow);
+                            : simulation::place_of(simulation_, camera.follow);
     return camera_of(camera, anchor.value_or(Vec3::Zero()));
   }
   return render::frame(frame.list.bounds());

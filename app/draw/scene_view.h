@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/app/draw/named_things.h"
-#include "pedicel/app/draw/pictures.h"
-#include "pedicel/app/draw/plant_drawing.h"
-#include "pedicel/app/run/simulation.h"
+#include "app/draw/named_things.h"
+#include "app/draw/pictures.h"
+#include "app/draw/plant_drawing.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -14,7 +14,7 @@ namespace pedicel::app {
 class SceneView {
  public:
   /// The simulation must outlive it.
-  explicit SceneView(const Simulation& simulation);
+  explicit SceneView(const simulation::Simulation& simulation);
 
   /// Fills an empty frame. With `strain`, stems have the colour of their strain.
   void fill(Frame& frame, bool strain = false);
@@ -31,9 +31,9 @@ class SceneView {
   void add_texts(Frame& frame, bool strain) const;
 
   void label_plant(int plant);
-  void label_fruit(render::DrawList& shape, const Detached& fruit) const;
+  void label_fruit(render::DrawList& shape, const simulation::Detached& fruit) const;
 
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   NamedThings things_;
   std::vector<PlantDrawing> plants_;
   std::vector<render::DrawList> links_, bodies_;

@@ -1,4 +1,4 @@
-#include "pedicel/app/draw/tint.h"
+#include "app/draw/tint.h"
 
 #include <algorithm>
 #include <cmath>

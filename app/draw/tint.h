@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/app/draw/plant_drawing.h"
-#include "pedicel/render/renderer.h"
-#include "pedicel/world/sensors.h"
+#include "app/draw/plant_drawing.h"
+#include "engine/render/renderer.h"
+#include "engine/world/sensors.h"
 
 namespace pedicel::app {
 

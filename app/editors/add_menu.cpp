@@ -1,14 +1,14 @@
-#include "pedicel/app/editors/add_menu.h"
+#include "app/editors/add_menu.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "pedicel/app/editors/thing_editor.h"
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/io/asset_folder.h"
+#include "app/editors/thing_editor.h"
+#include "app/session/commands/scene_things.h"
+#include "app/ui/widgets.h"
+#include "engine/io/asset_folder.h"
 
 namespace pedicel::app {
 

@@ -1,12 +1,12 @@
-#include "pedicel/app/editors/copy_part.h"
+#include "app/editors/copy_part.h"
 
 #include <imgui.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

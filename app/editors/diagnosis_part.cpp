@@ -1,17 +1,17 @@
-#include "pedicel/app/editors/diagnosis_part.h"
+#include "app/editors/diagnosis_part.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/session/measured/diagnosis_job.h"
-#include "pedicel/app/session/measured/measured_data.h"
-#include "pedicel/app/session/measured/measured_scene.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/session/measured/diagnosis_job.h"
+#include "app/session/measured/measured_data.h"
+#include "app/session/measured/measured_scene.h"
+#include "app/session/session_measured.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "pedicel/app/session/measured/diagnosis_card.h"
+#include "app/session/measured/diagnosis_card.h"
 
 namespace pedicel::app {
 

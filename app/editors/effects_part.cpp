@@ -1,10 +1,10 @@
-#include "pedicel/app/editors/effects_part.h"
+#include "app/editors/effects_part.h"
 
 #include <imgui.h>
 
-#include "pedicel/app/session/commands/measured_commands.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "app/session/commands/measured_commands.h"
+#include "app/ui/widgets.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::app {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/app/ui/ui.h"
+#include "app/ui/ui.h"
 
 namespace pedicel::app {
 

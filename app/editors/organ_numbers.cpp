@@ -1,4 +1,4 @@
-#include "pedicel/app/editors/organ_numbers.h"
+#include "app/editors/organ_numbers.h"
 
 #include <imgui.h>
 
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/session/document/effective_plant.h"
-#include "pedicel/app/ui/selection_follow.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/io/csv.h"
+#include "app/session/document/effective_plant.h"
+#include "app/ui/selection_follow.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::app {
 

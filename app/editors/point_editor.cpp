@@ -1,13 +1,13 @@
-#include "pedicel/app/editors/point_editor.h"
+#include "app/editors/point_editor.h"
 
 #include <imgui.h>
 
 #include <array>
 
-#include "pedicel/app/editors/stem_editor.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/plant/plant_edit.h"
+#include "app/editors/stem_editor.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
+#include "plugins/plant/plant_edit.h"
 
 namespace pedicel::app {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/plant/point_kind.h"
+#include "app/ui/ui.h"
+#include "plugins/plant/point_kind.h"
 
 namespace pedicel::app {
 

@@ -1,12 +1,12 @@
-#include "pedicel/app/editors/robot_program_part.h"
+#include "app/editors/robot_program_part.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -1,16 +1,16 @@
-#include "pedicel/app/editors/stem_editor.h"
+#include "app/editors/stem_editor.h"
 
 #include <imgui.h>
 
-#include "pedicel/app/draw/plant_drawing.h"
-#include "pedicel/app/editors/copy_part.h"
-#include "pedicel/app/editors/organ_numbers.h"
-#include "pedicel/app/editors/point_editor.h"
-#include "pedicel/app/editors/thing_editor.h"
-#include "pedicel/app/plants/plant_step.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/plant/plant_edit.h"
+#include "app/draw/plant_drawing.h"
+#include "app/editors/copy_part.h"
+#include "app/editors/organ_numbers.h"
+#include "app/editors/point_editor.h"
+#include "app/editors/thing_editor.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
+#include "plugins/plant/plant_edit.h"
+#include "plugins/simulation/plants/plant_step.h"
 
 namespace pedicel::app {
 
@@ -60,7 +60,7 @@ void fruit_details(Ui& ui) {
   if (!plant || ui.selection.fruit >= static_cast<int>(plant->model->fruits.size())) return;
   const auto index = static_cast<std::size_t>(ui.selection.fruit);
   const cosserat::Fruit& fruit = plant->model->fruits[index];
-  pick_button(ui, fruit_name(*plant->model, ui.selection.fruit));
+  pick_button(ui, simulation::fruit_name(*plant->model, ui.selection.fruit));
   if (index < plant->margin_used.size())
     row("Of its threshold", number_text(100.0 * plant->margin_used[index], 3) + " %");
   row("Mass", number_text(1e3 * fruit_mass(fruit), 3) + " g");
@@ -118,7 +118,7 @@ void element_details(Ui& ui) {
   const PlantSnapshot* plant = plant_of(ui);
   const int e = ui.selection.element;
   if (!plant || e < 0 || e >= plant->model->size() || !plant->state.alive[e]) return;
-  row("Strain here", number_text(surface_strain(*plant->model, plant->state, e), 3));
+  row("Strain here", number_text(simulation::surface_strain(*plant->model, plant->state, e), 3));
   const cosserat::JointLoad load = joint_load(*plant->model, plant->state, e);
   row("Force in it", quantity_text(load.force.norm(), "N"));
   row("Moment in it", quantity_text(load.moment.norm(), "N m"));
@@ -148,7 +148,7 @@ void choose_fruit(Ui& ui, const std::string& plant, const std::string& fruit) {
   for (std::size_t p = 0; p < ui.snapshot->plants.size(); ++p) {
     const cosserat::RodModel& model = *ui.snapshot->plants[p].model;
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
-      if (fruit_name(model, f) != plant + "/" + fruit) continue;
+      if (simulation::fruit_name(model, f) != plant + "/" + fruit) continue;
       ui.selection = {};
       ui.selection.kind = Kind::fruit;
       ui.selection.plant = static_cast<int>(p);

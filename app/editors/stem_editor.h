@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/app/ui/ui.h"
+#include "app/ui/ui.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/editors/thing_editor.h"
+#include "app/editors/thing_editor.h"
 
 #include <imgui.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/app/editors/tie_editor.h"
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/world/scene_writer.h"
+#include "app/editors/tie_editor.h"
+#include "app/session/commands/scene_things.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
+#include "engine/world/scene_writer.h"
 
 namespace pedicel::app {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/app/ui/ui.h"
+#include "app/ui/ui.h"
 
 /// Plants as a whole, bodies, cameras, ground and robot: chosen, and in numbers.
 namespace pedicel::app {

@@ -1,9 +1,9 @@
-#include "pedicel/app/editors/tie_editor.h"
+#include "app/editors/tie_editor.h"
 
 #include <imgui.h>
 
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

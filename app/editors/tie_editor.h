@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/app/ui/ui.h"
+#include "app/ui/ui.h"
 
 /// Strings that hold plants: chosen, and in numbers.
 namespace pedicel::app {

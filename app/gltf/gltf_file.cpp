@@ -1,10 +1,10 @@
-#include "pedicel/app/gltf/gltf_file.h"
+#include "app/gltf/gltf_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

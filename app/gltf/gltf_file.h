@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/render/draw_list.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/gltf/gltf_film.h"
+#include "app/gltf/gltf_film.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 #include <functional>
 #include <span>
 
-#include "pedicel/app/draw/drawing.h"
-#include "pedicel/app/gltf/gltf_surfaces.h"
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/core/check.h"
+#include "app/draw/drawing.h"
+#include "app/gltf/gltf_surfaces.h"
+#include "app/report/version.h"
+#include "engine/core/check.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -42,7 +42,7 @@ Pose pose_along(std::span<const Vec3> places, std::size_t index) {
 
 class GltfFilm : public RunWatcher {
  public:
-  GltfFilm(Simulation& simulation, std::filesystem::path file)
+  GltfFilm(simulation::Simulation& simulation, std::filesystem::path file)
       : simulation_(simulation), file_(std::move(file)) {
     int elements = 0;
     for (int p = 0; p < simulation.rods().size(); ++p)
@@ -88,7 +88,7 @@ class GltfFilm : public RunWatcher {
   }
 
   void add_robot() {
-    const RobotControl* robot = simulation_.robot();
+    const simulation::RobotControl* robot = simulation_.robot();
     if (!robot) return;
     const std::vector<render::DrawList> shapes = robot_shapes(robot->description());
     for (std::size_t l = 0; l < shapes.size(); ++l)
@@ -115,7 +115,7 @@ class GltfFilm : public RunWatcher {
     }
     const FruitLook look = FruitLook::of(simulation_.plants()[p].look);
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
-      add(fruit_name(model, f), fruit_shape(look, f, model.fruits[f].radius),
+      add(simulation::fruit_name(model, f), fruit_shape(look, f, model.fruits[f].radius),
           [this, p, f]() -> std::optional<Pose> {
             const cosserat::RodModel& own = simulation_.rods().model(p);
             const cosserat::RodState& state = simulation_.rods().state(p);
@@ -128,7 +128,7 @@ class GltfFilm : public RunWatcher {
 
   // A string is a skin on the places along it.
   void add_strings() {
-    for (const SceneTies::One& tie : simulation_.ties().all()) {
+    for (const simulation::SceneTies::One& tie : simulation_.ties().all()) {
       constexpr int places = string_parts + 1;
       skins_.push_back(
           {tie.name, tracks_.size(), places, gltf_.mesh(tie.name, {string_surface(places)})});
@@ -153,7 +153,7 @@ class GltfFilm : public RunWatcher {
     for (; bodies_ < world.body_count(); ++bodies_) {
       const int b = bodies_;
       render::DrawList shape = body_shape(world.body(b));
-      for (const Detached& fallen : simulation_.plant_step().detached())
+      for (const simulation::Detached& fallen : simulation_.plant_step().detached())
         if (fallen.body == b)
           shape = fruit_shape(
               FruitLook::of(simulation_.plants()[fallen.plant].look), fallen.event.fruit,
@@ -266,7 +266,7 @@ class GltfFilm : public RunWatcher {
     std::size_t first = 0, joints = 0;  // tracks
     int mesh = 0;
   };
-  Simulation& simulation_;
+  simulation::Simulation& simulation_;
   std::filesystem::path file_;
   GltfFile gltf_;
   std::vector<Track> tracks_;
@@ -279,7 +279,7 @@ class GltfFilm : public RunWatcher {
 }  // namespace
 
 MakeWatcher gltf_film(const std::filesystem::path& file) {
-  return [file](Simulation& simulation, PictureTaker*) {
+  return [file](simulation::Simulation& simulation, PictureTaker*) {
     return std::make_unique<GltfFilm>(simulation, file);
   };
 }

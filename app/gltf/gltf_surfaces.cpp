@@ -1,11 +1,11 @@
-#include "pedicel/app/gltf/gltf_surfaces.h"
+#include "app/gltf/gltf_surfaces.h"
 
 #include <numbers>
 
-#include "pedicel/app/draw/drawing.h"
-#include "pedicel/app/draw/plant_drawing.h"
-#include "pedicel/geometry/primitives_mesh.h"
-#include "pedicel/render/mesh_normals.h"
+#include "app/draw/drawing.h"
+#include "app/draw/plant_drawing.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "engine/render/mesh_normals.h"
 
 namespace pedicel::app {
 
@@ -120,12 +120,13 @@ std::vector<GltfSurface> surfaces_of(const render::DrawList& shape) {
   return all.take();
 }
 
-std::vector<GltfSurface> surfaces_of(const cosserat::RodModel& model, const PlantInfo& plant) {
+std::vector<GltfSurface> surfaces_of(const cosserat::RodModel& model,
+                                     const simulation::PlantInfo& plant) {
   const PlantLook look = PlantLook::of(plant.look);
   GltfSurface stems{{}, {}, {}, {}, look.stem, false}, leaves{{}, {}, {}, {}, look.blade, true};
   for (int e = 0; e < model.size(); ++e)
     add_stem(stems, model.elements[static_cast<std::size_t>(e)], e);
-  for (const Blade& blade : plant.blades) {
+  for (const simulation::Blade& blade : plant.blades) {
     Vec3 drawn[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const auto e = static_cast<std::size_t>(blade[k].element);
@@ -134,7 +135,7 @@ std::vector<GltfSurface> surfaces_of(const cosserat::RodModel& model, const Plan
     }
     const Vec3 across = (drawn[1] - drawn[0]).cross(drawn[2] - drawn[0]);
     if (!(across.norm() > 0.0)) continue;
-    for (const BladeCorner& corner : blade) {
+    for (const simulation::BladeCorner& corner : blade) {
       const cosserat::Element& element = model.elements[static_cast<std::size_t>(corner.element)];
       leaves.indices.push_back(static_cast<std::uint32_t>(leaves.positions.size() / 3));
       Gathered::put(leaves.positions, Vec3(0, 0, -corner.back));

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/app/gltf/gltf_file.h"
-#include "pedicel/app/plants/plant_info.h"
+#include "app/gltf/gltf_file.h"
+#include "plugins/simulation/plants/plant_info.h"
 
 namespace pedicel::app {
 
@@ -10,7 +10,8 @@ namespace pedicel::app {
 std::vector<GltfSurface> surfaces_of(const render::DrawList& shape);
 
 /// A plant's stems and leaves as surfaces that hang on its elements.
-std::vector<GltfSurface> surfaces_of(const cosserat::RodModel& model, const PlantInfo& plant);
+std::vector<GltfSurface> surfaces_of(const cosserat::RodModel& model,
+                                     const simulation::PlantInfo& plant);
 
 /// A tube about a string's places, a ring at each of so many joints, along whose third axis it
 /// runs.

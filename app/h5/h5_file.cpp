@@ -1,8 +1,8 @@
-#include "pedicel/app/h5/h5_file.h"
+#include "app/h5/h5_file.h"
 
 #include <algorithm>
 
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

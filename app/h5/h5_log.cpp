@@ -1,13 +1,13 @@
-#include "pedicel/app/h5/h5_log.h"
+#include "app/h5/h5_log.h"
 
 #include <functional>
 #include <set>
 
-#include "pedicel/app/h5/h5_file.h"
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/topics/simulation_topics.h"
-#include "pedicel/ros_messages/control_messages.h"
-#include "pedicel/ros_messages/sensor_messages.h"
+#include "app/h5/h5_file.h"
+#include "app/report/version.h"
+#include "app/topics/simulation_topics.h"
+#include "engine/ros_messages/control_messages.h"
+#include "engine/ros_messages/sensor_messages.h"
 
 namespace pedicel::app {
 
@@ -127,7 +127,8 @@ class H5Sink : public TopicSink {
 
 class H5Watcher : public RunWatcher {
  public:
-  H5Watcher(Simulation& simulation, PictureTaker* taker, const std::filesystem::path& path)
+  H5Watcher(simulation::Simulation& simulation, PictureTaker* taker,
+            const std::filesystem::path& path)
       : sink_(path),
         topics_(simulation, sink_, TopicRates{.states = simulation.scene().log_rate}, taker) {}
   void begin() override { topics_.begin(); }
@@ -142,7 +143,7 @@ class H5Watcher : public RunWatcher {
 }  // namespace
 
 MakeWatcher h5_log(const std::filesystem::path& file) {
-  return [file](Simulation& simulation, PictureTaker* taker) {
+  return [file](simulation::Simulation& simulation, PictureTaker* taker) {
     return std::make_unique<H5Watcher>(simulation, taker, file);
   };
 }

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "pedicel/app/report/run_watcher.h"
+#include "app/report/run_watcher.h"
 
 namespace pedicel::app {
 

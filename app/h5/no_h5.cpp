@@ -1,6 +1,6 @@
 // In place of h5_log.cpp where HDF5 is not there.
-#include "pedicel/app/h5/h5_log.h"
-#include "pedicel/core/check.h"
+#include "app/h5/h5_log.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

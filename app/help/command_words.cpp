@@ -1,4 +1,4 @@
-#include "pedicel/app/help/command_words.h"
+#include "app/help/command_words.h"
 
 #include <CLI/CLI.hpp>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "pedicel/app/help/completion.h"
+#include "app/help/completion.h"
 
 #include <sstream>
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/app/help/command_words.h"
+#include "app/help/command_words.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/help/key_tables.h"
+#include "app/help/key_tables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,14 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "pedicel/app/help/manual_cells.h"
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/data/experiment_keys.h"
-#include "pedicel/discrepancy/scene/scene_experiment_keys.h"
-#include "pedicel/discrepancy/select/verdict_keys.h"
-#include "pedicel/io/key.h"
-#include "pedicel/plant/plant_file_keys.h"
-#include "pedicel/world/scene_reader.h"
+#include "app/help/manual_cells.h"
+#include "engine/core/check.h"
+#include "engine/io/key.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/discrepancy/data/experiment_keys.h"
+#include "plugins/discrepancy/scene/scene_experiment_keys.h"
+#include "plugins/discrepancy/select/verdict_keys.h"
+#include "plugins/plant/plant_file_keys.h"
 
 namespace pedicel::app {
 

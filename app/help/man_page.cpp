@@ -1,4 +1,4 @@
-#include "pedicel/app/help/man_page.h"
+#include "app/help/man_page.h"
 
 #include <sstream>
 

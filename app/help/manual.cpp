@@ -1,14 +1,14 @@
-#include "pedicel/app/help/manual.h"
+#include "app/help/manual.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
-#include "pedicel/app/help/key_tables.h"
-#include "pedicel/app/help/manual_rows.h"
-#include "pedicel/app/report/manual.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/help/key_tables.h"
+#include "app/help/manual_rows.h"
+#include "app/report/manual.h"
+#include "engine/core/exit_code.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,8 @@
-#include "pedicel/app/help/manual_cells.h"
+#include "app/help/manual_cells.h"
 
 #include <cmath>
 
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::app {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/io/bounds.h"
+#include "engine/io/bounds.h"
 
 /// Cells of the manual's tables, as Markdown.
 namespace pedicel::app {

@@ -1,18 +1,18 @@
-#include "pedicel/app/help/manual_rows.h"
+#include "app/help/manual_rows.h"
 
 #include <cmath>
 
-#include "pedicel/app/help/manual_cells.h"
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/parameter.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
-#include "pedicel/coupling/coupling_settings.h"
-#include "pedicel/discrepancy/settings/scene_settings.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/plant/plant_numbers.h"
-#include "pedicel/plant/plant_shape.h"
-#include "pedicel/world/settings.h"
+#include "app/help/manual_cells.h"
+#include "app/session/commands/command_table.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/parameter.h"
+#include "engine/world/settings.h"
+#include "plugins/cosserat/solver/rod_solver.h"
+#include "plugins/coupling/coupling_settings.h"
+#include "plugins/discrepancy/settings/scene_settings.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "plugins/plant/plant_numbers.h"
+#include "plugins/plant/plant_shape.h"
 
 namespace pedicel::app {
 

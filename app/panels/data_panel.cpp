@@ -5,18 +5,18 @@
 #include <cmath>
 #include <filesystem>
 
-#include "pedicel/app/editors/diagnosis_part.h"
-#include "pedicel/app/panels/panel.h"
-#include "pedicel/app/panels/scene_data.h"
-#include "pedicel/app/session/measured/experiment_reading.h"
-#include "pedicel/app/session/measured/measured_instant.h"
-#include "pedicel/app/session/measured/measured_scene.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/app/ui/plot.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/app/view/measured_marks.h"
+#include "app/editors/diagnosis_part.h"
+#include "app/panels/panel.h"
+#include "app/panels/scene_data.h"
+#include "app/session/measured/experiment_reading.h"
+#include "app/session/measured/measured_instant.h"
+#include "app/session/measured/measured_scene.h"
+#include "app/session/session_measured.h"
+#include "app/ui/plot.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
+#include "app/view/measured_marks.h"
 
 namespace pedicel::app {
 

@@ -5,15 +5,15 @@
 #include <array>
 #include <string>
 
-#include "pedicel/app/editors/add_menu.h"
-#include "pedicel/app/panels/layout.h"
-#include "pedicel/app/report/manual.h"
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_recovery.h"
-#include "pedicel/app/ui/file_list.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/editors/add_menu.h"
+#include "app/panels/layout.h"
+#include "app/report/manual.h"
+#include "app/report/version.h"
+#include "app/session/session_files.h"
+#include "app/session/session_recovery.h"
+#include "app/ui/file_list.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 
@@ -114,7 +114,7 @@ void info(Ui& ui) {
     row("Platform", ui.times.platform);
     row("File", ui.session.files().path().empty() ? "none" : ui.session.files().path().string());
     if (ui.snapshot->assets) {
-      const SceneAssets& assets = *ui.snapshot->assets;
+      const simulation::SceneAssets& assets = *ui.snapshot->assets;
       row("Time step", quantity_text(assets.scene.dt, "s"));
       row("Plants", std::to_string(ui.snapshot->plants.size()));
       int elements = 0, fruits = 0;

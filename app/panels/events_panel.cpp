@@ -2,12 +2,12 @@
 
 #include <array>
 
-#include "pedicel/app/editors/stem_editor.h"
-#include "pedicel/app/panels/panel.h"
-#include "pedicel/app/ui/selection_follow.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/editors/stem_editor.h"
+#include "app/panels/panel.h"
+#include "app/ui/selection_follow.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -1,10 +1,10 @@
-#include "pedicel/app/panels/layout.h"
+#include "app/panels/layout.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "pedicel/app/panels/time_line.h"
-#include "pedicel/app/ui/theme.h"
+#include "app/panels/time_line.h"
+#include "app/ui/theme.h"
 
 namespace pedicel::app {
 

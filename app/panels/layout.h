@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/panels/panel.h"
-#include "pedicel/app/ui/ui.h"
+#include "app/panels/panel.h"
+#include "app/ui/ui.h"
 
 namespace pedicel::app {
 

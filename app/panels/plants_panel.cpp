@@ -4,14 +4,14 @@
 #include <array>
 #include <cmath>
 
-#include "pedicel/app/editors/add_menu.h"
-#include "pedicel/app/editors/stem_editor.h"
-#include "pedicel/app/editors/thing_editor.h"
-#include "pedicel/app/editors/tie_editor.h"
-#include "pedicel/app/panels/panel.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/editors/add_menu.h"
+#include "app/editors/stem_editor.h"
+#include "app/editors/thing_editor.h"
+#include "app/editors/tie_editor.h"
+#include "app/panels/panel.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -5,18 +5,18 @@
 #include <filesystem>
 #include <map>
 
-#include "pedicel/app/panels/panel.h"
-#include "pedicel/app/session/measured/measured_instant.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/app/ui/free_file_name.h"
-#include "pedicel/app/ui/plot.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/app/view/measured_marks.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/csv_cell.h"
+#include "app/panels/panel.h"
+#include "app/session/measured/measured_instant.h"
+#include "app/session/session_measured.h"
+#include "app/ui/free_file_name.h"
+#include "app/ui/plot.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
+#include "app/view/measured_marks.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "engine/io/csv_cell.h"
 
 namespace pedicel::app {
 

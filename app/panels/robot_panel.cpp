@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/editors/organ_numbers.h"
-#include "pedicel/app/editors/robot_program_part.h"
-#include "pedicel/app/panels/panel.h"
-#include "pedicel/app/session/session_robot.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/editors/organ_numbers.h"
+#include "app/editors/robot_program_part.h"
+#include "app/panels/panel.h"
+#include "app/session/session_robot.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

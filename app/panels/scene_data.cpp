@@ -1,14 +1,14 @@
-#include "pedicel/app/panels/scene_data.h"
+#include "app/panels/scene_data.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/app/view/measured_marks.h"
+#include "app/session/session_measured.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
+#include "app/view/measured_marks.h"
 
 namespace pedicel::app {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "pedicel/app/session/measured/scene_instant.h"
-#include "pedicel/app/ui/plot.h"
-#include "pedicel/app/ui/ui.h"
+#include "app/session/measured/scene_instant.h"
+#include "app/ui/plot.h"
+#include "app/ui/ui.h"
 
 namespace pedicel::app {
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/panels/layout.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/render/colormap.h"
+#include "app/panels/layout.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
+#include "engine/render/colormap.h"
 
 namespace pedicel::app {
 

@@ -1,9 +1,9 @@
 #include <array>
 #include <cstdio>
 
-#include "pedicel/app/panels/layout.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/panels/layout.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -1,10 +1,10 @@
-#include "pedicel/app/panels/time_line.h"
+#include "app/panels/time_line.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

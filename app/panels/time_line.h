@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "pedicel/app/ui/ui.h"
+#include "app/ui/ui.h"
 
 namespace pedicel::app {
 

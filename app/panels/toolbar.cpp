@@ -2,11 +2,11 @@
 #include <array>
 #include <cstdio>
 
-#include "pedicel/app/editors/add_menu.h"
-#include "pedicel/app/panels/layout.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/editors/add_menu.h"
+#include "app/panels/layout.h"
+#include "app/session/session_files.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -4,13 +4,13 @@
 #include <cctype>
 #include <map>
 
-#include "pedicel/app/panels/panel.h"
-#include "pedicel/app/session/session_tuning.h"
-#include "pedicel/app/ui/drag_bar.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/io/yaml.h"
+#include "app/panels/panel.h"
+#include "app/session/session_tuning.h"
+#include "app/ui/drag_bar.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
+#include "engine/io/yaml.h"
 
 namespace pedicel::app {
 

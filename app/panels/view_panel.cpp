@@ -1,9 +1,9 @@
 #include <array>
 
-#include "pedicel/app/panels/panel.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/panels/panel.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

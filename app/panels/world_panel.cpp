@@ -2,15 +2,15 @@
 
 #include <array>
 
-#include "pedicel/app/editors/effects_part.h"
-#include "pedicel/app/panels/panel.h"
-#include "pedicel/app/plants/rod_options.h"
-#include "pedicel/app/session/document/effective_plant.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/io/csv.h"
+#include "app/editors/effects_part.h"
+#include "app/panels/panel.h"
+#include "app/session/document/effective_plant.h"
+#include "app/session/session_measured.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
+#include "app/ui/widgets.h"
+#include "engine/io/csv.h"
+#include "plugins/simulation/plants/rod_options.h"
 
 namespace pedicel::app {
 
@@ -25,8 +25,8 @@ struct Solver {
 Solver solver_of(const world::Scene& scene) {
   Solver solver;
   Diagnostics ignored;  // they were checked when they were set
-  apply_rod_settings(scene.rods, solver.rods, ignored);
-  apply_coupling_settings(scene.coupling, solver.coupling, ignored);
+  simulation::apply_rod_settings(scene.rods, solver.rods, ignored);
+  simulation::apply_coupling_settings(scene.coupling, solver.coupling, ignored);
   return solver;
 }
 

@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "pedicel/app/platform/platform.h"
+#include "app/platform/platform.h"
 
 namespace pedicel::app {
 

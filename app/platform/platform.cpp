@@ -1,7 +1,7 @@
-#include "pedicel/app/platform/platform.h"
+#include "app/platform/platform.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/render/offscreen.h"
+#include "engine/core/check.h"
+#include "engine/render/offscreen.h"
 
 namespace pedicel::app {
 

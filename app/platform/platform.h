@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/platform/input.h"
-#include "pedicel/render/gl_functions.h"
-#include "pedicel/render/render_target.h"
+#include "app/platform/input.h"
+#include "engine/render/gl_functions.h"
+#include "engine/render/render_target.h"
 
 namespace pedicel::app {
 

@@ -1,9 +1,9 @@
-#include "pedicel/app/playback/drawn_markers.h"
+#include "app/playback/drawn_markers.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/draw/drawing.h"
+#include "app/draw/drawing.h"
 
 namespace pedicel::app {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/render/draw_list.h"
-#include "pedicel/ros_messages/marker_messages.h"
+#include "engine/render/draw_list.h"
+#include "engine/ros_messages/marker_messages.h"
 
 namespace pedicel::app {
 

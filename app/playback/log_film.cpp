@@ -1,15 +1,15 @@
-#include "pedicel/app/playback/log_film.h"
+#include "app/playback/log_film.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/app/draw/drawing.h"
-#include "pedicel/app/playback/drawn_markers.h"
-#include "pedicel/mcap/reader.h"
-#include "pedicel/ros_messages/cdr.h"
-#include "pedicel/urdf/urdf_reader.h"
+#include "app/draw/drawing.h"
+#include "app/playback/drawn_markers.h"
+#include "engine/mcap/reader.h"
+#include "engine/ros_messages/cdr.h"
+#include "engine/urdf/urdf_reader.h"
 
 namespace pedicel::app {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/draw/pictures.h"
-#include "pedicel/discrepancy/log_import/log_contents.h"
-#include "pedicel/robot/description.h"
-#include "pedicel/ros_messages/marker_messages.h"
+#include "app/draw/pictures.h"
+#include "engine/robot/description.h"
+#include "engine/ros_messages/marker_messages.h"
+#include "plugins/discrepancy/log_import/log_contents.h"
 
 namespace pedicel::app {
 

@@ -1,13 +1,13 @@
-#include "pedicel/app/playback/play_off_screen.h"
+#include "app/playback/play_off_screen.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/playback/log_film.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/stop.h"
+#include "app/playback/log_film.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/stop.h"
 
 namespace pedicel::app {
 

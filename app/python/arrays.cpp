@@ -1,8 +1,8 @@
-#include "pedicel/app/python/arrays.h"
+#include "app/python/arrays.h"
 
 #include <cmath>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::python {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "pedicel/app/steer/state_arrays.h"
+#include "app/steer/state_arrays.h"
 
 namespace pedicel::python {
 

@@ -1,9 +1,9 @@
 #include <pybind11/stl.h>
 
-#include "pedicel/app/python/run_class.h"
-#include "pedicel/app/run/wrench_sensor.h"
-#include "pedicel/app/sense/point_cloud.h"
-#include "pedicel/core/check.h"
+#include "app/python/run_class.h"
+#include "app/sense/point_cloud.h"
+#include "engine/core/check.h"
+#include "plugins/simulation/wrench_sensor.h"
 
 namespace pedicel::python {
 
@@ -190,7 +190,7 @@ void add_camera_classes(py::module_& module) {
 
 namespace {
 
-py::dict record_of(const app::Gentleness::Record& one, bool fruit) {
+py::dict record_of(const simulation::Gentleness::Record& one, bool fruit) {
   py::dict entry;
   entry["peak_force"] = one.peak_force;
   entry["impulse"] = one.impulse;
@@ -200,7 +200,7 @@ py::dict record_of(const app::Gentleness::Record& one, bool fruit) {
   return entry;
 }
 
-py::dict dict_of(const app::Gentleness::Total& total) {
+py::dict dict_of(const simulation::Gentleness::Total& total) {
   py::dict all;
   all["peak_force"] = total.peak_force;
   all["impulse"] = total.impulse;
@@ -220,17 +220,17 @@ py::dict gentleness_total(Run& self) {
 struct Handled {
   std::string name;
   bool fruit;
-  app::Gentleness::Record record;
+  simulation::Gentleness::Record record;
 };
 
-std::vector<Handled> handled(const app::Simulation& simulation) {
+std::vector<Handled> handled(const simulation::Simulation& simulation) {
   std::vector<Handled> all;
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
     for (std::size_t o = 0; o < model.organs.size(); ++o)
       all.push_back({model.organs[o], false, simulation.gentleness().organs(p)[o]});
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
-      all.push_back({app::fruit_name(model, f), true,
+      all.push_back({simulation::fruit_name(model, f), true,
                      simulation.gentleness().fruits(p)[static_cast<std::size_t>(f)]});
   }
   return all;
@@ -248,8 +248,8 @@ py::dict gentleness_of(Run& self) {
 
 py::dict wrenches_of(Run& self) {
   const auto read = self.alone([](app::SteeredRun& run) {
-    std::vector<std::pair<std::string, app::Wrench>> all;
-    for (const app::WrenchSensor& one : run.simulation().wrenches())
+    std::vector<std::pair<std::string, simulation::Wrench>> all;
+    for (const simulation::WrenchSensor& one : run.simulation().wrenches())
       all.emplace_back(one.scene().name, one.reading());
     return all;
   });

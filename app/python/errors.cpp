@@ -1,11 +1,11 @@
-#include "pedicel/app/python/errors.h"
+#include "app/python/errors.h"
 
 #include <pybind11/stl.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/render/image.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/atomic_file.h"
+#include "engine/render/image.h"
 
 namespace pedicel::python {
 

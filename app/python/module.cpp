@@ -1,18 +1,18 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "pedicel/app/python/errors.h"
-#include "pedicel/app/python/picture_thread.h"
-#include "pedicel/app/python/plant_class.h"
-#include "pedicel/app/python/run_class.h"
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/app/session/document/document_parameters.h"
-#include "pedicel/io/asset_folder.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/robot/inverse_kinematics.h"
-#include "pedicel/world/recorder.h"
-#include "pedicel/world/variation.h"
+#include "app/python/errors.h"
+#include "app/python/picture_thread.h"
+#include "app/python/plant_class.h"
+#include "app/python/run_class.h"
+#include "app/report/version.h"
+#include "app/session/document/document_parameters.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/asset_folder.h"
+#include "engine/io/csv.h"
+#include "engine/robot/inverse_kinematics.h"
+#include "engine/world/recorder.h"
+#include "engine/world/variation.h"
 
 namespace pedicel::python {
 

@@ -1,9 +1,9 @@
-#include "pedicel/app/python/picture_thread.h"
+#include "app/python/picture_thread.h"
 
 #include <pthread.h>
 
-#include "pedicel/app/python/errors.h"
-#include "pedicel/core/check.h"
+#include "app/python/errors.h"
+#include "engine/core/check.h"
 
 namespace pedicel::python {
 

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-#include "pedicel/app/draw/pictures.h"
+#include "app/draw/pictures.h"
 
 namespace pedicel::python {
 

@@ -1,17 +1,17 @@
-#include "pedicel/app/python/plant_class.h"
+#include "app/python/plant_class.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "pedicel/app/plants/plant_overrides.h"
-#include "pedicel/app/python/arrays.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/plant_import.h"
-#include "pedicel/core/check.h"
-#include "pedicel/plant/organ_edit.h"
-#include "pedicel/plant/plant_builder.h"
-#include "pedicel/plant/plant_edit.h"
-#include "pedicel/plant/plant_numbers.h"
+#include "app/python/arrays.h"
+#include "app/session/document/document.h"
+#include "app/session/document/plant_import.h"
+#include "engine/core/check.h"
+#include "plugins/plant/organ_edit.h"
+#include "plugins/plant/plant_builder.h"
+#include "plugins/plant/plant_edit.h"
+#include "plugins/plant/plant_numbers.h"
+#include "plugins/simulation/plants/plant_overrides.h"
 
 namespace pedicel::python {
 

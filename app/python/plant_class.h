@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::python {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::python {
 

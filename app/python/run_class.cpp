@@ -1,4 +1,4 @@
-#include "pedicel/app/python/run_class.h"
+#include "app/python/run_class.h"
 
 #include <pybind11/stl.h>
 
@@ -6,12 +6,13 @@
 #include <cstdio>
 #include <limits>
 
-#include "pedicel/app/python/scenes.h"
-#include "pedicel/app/run/channels.h"
-#include "pedicel/app/session/document/document_parameters.h"
-#include "pedicel/app/steer/tool_reach.h"
-#include "pedicel/app/steer/visibility.h"
-#include "pedicel/core/check.h"
+#include "app/python/scenes.h"
+#include "app/session/document/document_parameters.h"
+#include "app/steer/tool_reach.h"
+#include "app/steer/visibility.h"
+#include "engine/core/check.h"
+#include "plugins/simulation/channels.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::python {
 
@@ -34,7 +35,7 @@ std::vector<double> joint_numbers(Run& self, const py::object& values) {
     const auto joint = std::ranges::find(names, name.cast<std::string>());
     if (joint == names.end())
       throw UsageError("no joint " + in_quotes(name.cast<std::string>()) +
-                       ", expected one of: " + app::list_of(names));
+                       ", expected one of: " + simulation::list_of(names));
     numbers[static_cast<std::size_t>(joint - names.begin())] = value.cast<double>();
   }
   return numbers;
@@ -110,7 +111,7 @@ void add_robot(RunClass& run) {
         std::optional<Quat> q;
         if (orientation) q = quat_of(*orientation, "orientation");
         return self.alone([&](app::SteeredRun& one) {
-          const app::RobotControl& robot = app::robot_of(one.simulation());
+          const simulation::RobotControl& robot = app::robot_of(one.simulation());
           return app::reach_tool(one.simulation(), p, q, robot.robot().positions());
         });
       },
@@ -122,7 +123,7 @@ void add_robot(RunClass& run) {
       [](Run& self) {
         using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
         const Jacobian j = self.alone([](app::SteeredRun& one) -> Jacobian {
-          const app::RobotControl& robot = app::robot_of(one.simulation());
+          const simulation::RobotControl& robot = app::robot_of(one.simulation());
           return robot.robot().model().jacobian(robot.robot().positions(), robot.tool_link(),
                                                 one.simulation().scene().robot->tool_offset);
         });
@@ -201,13 +202,13 @@ void add_forces(RunClass& run) {
 }
 
 std::vector<world::Event> events_of(Run& self) {
-  return self.alone([](app::SteeredRun& one) { return app::events_of(one.simulation()); });
+  return self.alone([](app::SteeredRun& one) { return simulation::events_of(one.simulation()); });
 }
 
 py::dict quantities_of(Run& self) {
   const auto read = self.alone([](app::SteeredRun& one) {
     std::vector<std::pair<std::string, double>> all;
-    for (const app::Channel& channel : app::channels_of(one.simulation()))
+    for (const simulation::Channel& channel : simulation::channels_of(one.simulation()))
       all.emplace_back(channel.name, channel.read());
     return all;
   });

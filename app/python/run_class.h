@@ -6,10 +6,10 @@
 #include <mutex>
 #include <optional>
 
-#include "pedicel/app/python/arrays.h"
-#include "pedicel/app/python/process.h"
-#include "pedicel/app/sense/scene_sensors.h"
-#include "pedicel/app/steer/steered_run.h"
+#include "app/python/arrays.h"
+#include "app/python/process.h"
+#include "app/sense/scene_sensors.h"
+#include "app/steer/steered_run.h"
 
 namespace pedicel::python {
 

@@ -1,12 +1,12 @@
 #include <pybind11/numpy.h>
 
-#include "pedicel/app/draw/tint.h"
-#include "pedicel/app/python/errors.h"
-#include "pedicel/app/python/picture_thread.h"
-#include "pedicel/app/python/run_class.h"
-#include "pedicel/app/python/scenes.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/timer.h"
+#include "app/draw/tint.h"
+#include "app/python/errors.h"
+#include "app/python/picture_thread.h"
+#include "app/python/run_class.h"
+#include "app/python/scenes.h"
+#include "engine/core/check.h"
+#include "engine/core/timer.h"
 
 namespace pedicel::python {
 
@@ -64,14 +64,15 @@ void Run::act(app::Act act) {
 
 namespace {
 
-void check_camera(const app::Simulation& simulation, const std::string& camera) {
+void check_camera(const simulation::Simulation& simulation, const std::string& camera) {
   if (camera.empty()) return;
   std::vector<std::string> names;
   for (const world::SceneCamera& one : simulation.scene().cameras) {
     if (one.name == camera) return;
     names.push_back(one.name);
   }
-  throw UsageError("no camera " + in_quotes(camera) + ", expected one of: " + app::list_of(names));
+  throw UsageError("no camera " + in_quotes(camera) +
+                   ", expected one of: " + simulation::list_of(names));
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
-#include "pedicel/app/python/scenes.h"
+#include "app/python/scenes.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <cmath>
 
-#include "pedicel/app/python/plant_class.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
+#include "app/python/plant_class.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::python {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/steer/steered_run.h"
+#include "app/steer/steered_run.h"
 
 namespace pedicel::python {
 

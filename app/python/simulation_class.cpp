@@ -1,7 +1,7 @@
 #include <pybind11/stl.h>
 
-#include "pedicel/app/python/run_class.h"
-#include "pedicel/app/python/scenes.h"
+#include "app/python/run_class.h"
+#include "app/python/scenes.h"
 
 namespace pedicel::python {
 

@@ -2,11 +2,11 @@
 
 #include <optional>
 
-#include "pedicel/app/python/run_class.h"
-#include "pedicel/app/python/scenes.h"
-#include "pedicel/app/steer/steered_worlds.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/timer.h"
+#include "app/python/run_class.h"
+#include "app/python/scenes.h"
+#include "app/steer/steered_worlds.h"
+#include "engine/core/check.h"
+#include "engine/core/timer.h"
 
 namespace pedicel::python {
 

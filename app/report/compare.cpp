@@ -1,4 +1,4 @@
-#include "pedicel/app/report/compare.h"
+#include "app/report/compare.h"
 
 #include <algorithm>
 #include <cmath>

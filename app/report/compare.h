@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::app {
 

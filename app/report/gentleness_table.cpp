@@ -1,10 +1,10 @@
-#include "pedicel/app/report/gentleness_table.h"
+#include "app/report/gentleness_table.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/io/csv_cell.h"
+#include "engine/io/csv.h"
+#include "engine/io/csv_cell.h"
 
 namespace pedicel::app {
 
@@ -12,13 +12,13 @@ namespace {
 
 constexpr double least_energy = 1.0e-9;  // J, below which an organ was left alone
 
-bool is_handled(const Gentleness::Record& one) {
+bool is_handled(const simulation::Gentleness::Record& one) {
   return one.touched() || one.broken || one.margin_used > 0.0 || one.strain_energy > least_energy;
 }
 
 }  // namespace
 
-std::vector<HandledOrgan> handled_organs(const Simulation& simulation) {
+std::vector<HandledOrgan> handled_organs(const simulation::Simulation& simulation) {
   std::vector<HandledOrgan> all;
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
@@ -28,7 +28,7 @@ std::vector<HandledOrgan> handled_organs(const Simulation& simulation) {
       if (is_handled(organs[o])) all.push_back({model.organs[o], false, organs[o]});
     for (std::size_t f = 0; f < fruits.size(); ++f)
       if (is_handled(fruits[f]))
-        all.push_back({fruit_name(model, static_cast<int>(f)), true, fruits[f]});
+        all.push_back({simulation::fruit_name(model, static_cast<int>(f)), true, fruits[f]});
   }
   return all;
 }
@@ -37,7 +37,7 @@ std::string to_csv(const std::vector<HandledOrgan>& organs) {
   std::string text =
       "organ,touched_at_s,peak_force_N,impulse_N_s,margin_used_1,strain_energy_J,broken\n";
   for (const HandledOrgan& one : organs) {
-    const Gentleness::Record& r = one.record;
+    const simulation::Gentleness::Record& r = one.record;
     text += io::csv_cell(one.name) + "," + (r.touched() ? io::exact_number(r.first_touch) : "nan");
     for (const double value : {r.peak_force, r.impulse, r.margin_used, r.strain_energy})
       text += "," + io::exact_number(value);
@@ -46,7 +46,7 @@ std::string to_csv(const std::vector<HandledOrgan>& organs) {
   return text;
 }
 
-nlohmann::ordered_json to_json(const Gentleness::Total& total,
+nlohmann::ordered_json to_json(const simulation::Gentleness::Total& total,
                                const std::vector<HandledOrgan>& organs) {
   nlohmann::ordered_json json = {{"peak_force_N", total.peak_force},
                                  {"impulse_N_s", total.impulse},
@@ -56,7 +56,7 @@ nlohmann::ordered_json to_json(const Gentleness::Total& total,
                                  {"broken", total.broken},
                                  {"organs", nlohmann::ordered_json::array()}};
   for (const HandledOrgan& one : organs) {
-    const Gentleness::Record& r = one.record;
+    const simulation::Gentleness::Record& r = one.record;
     nlohmann::ordered_json entry = {{"organ", one.name},
                                     {"peak_force_N", r.peak_force},
                                     {"impulse_N_s", r.impulse},

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/run/simulation.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -12,17 +12,17 @@ namespace pedicel::app {
 struct HandledOrgan {
   std::string name;  ///< "truss/fruit_3"
   bool fruit = false;
-  Gentleness::Record record;
+  simulation::Gentleness::Record record;
 };
 
 /// Organs and fruits that were touched, broken, or whose stalk bore anything, in the order of their
 /// plants.
-std::vector<HandledOrgan> handled_organs(const Simulation& simulation);
+std::vector<HandledOrgan> handled_organs(const simulation::Simulation& simulation);
 
 /// Columns organ, touched_at_s, peak_force_N, impulse_N_s, margin_used_1, strain_energy_J, broken.
 std::string to_csv(const std::vector<HandledOrgan>& organs);
 
-nlohmann::ordered_json to_json(const Gentleness::Total& total,
+nlohmann::ordered_json to_json(const simulation::Gentleness::Total& total,
                                const std::vector<HandledOrgan>& organs);
 
 }  // namespace pedicel::app

@@ -1,4 +1,4 @@
-#include "pedicel/app/report/headless.h"
+#include "app/report/headless.h"
 
 #include <unistd.h>
 
@@ -9,22 +9,23 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/app/draw/scene_view.h"
-#include "pedicel/app/plants/organ_contacts.h"
-#include "pedicel/app/report/meta.h"
-#include "pedicel/app/report/run_state.h"
-#include "pedicel/app/report/sensor_recorder.h"
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/run/channels.h"
-#include "pedicel/app/run/rough_spell.h"
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/core/timer.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/settings.h"
+#include "app/draw/scene_view.h"
+#include "app/report/meta.h"
+#include "app/report/run_state.h"
+#include "app/report/sensor_recorder.h"
+#include "app/report/version.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/core/timer.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/settings.h"
+#include "plugins/simulation/channels.h"
+#include "plugins/simulation/plants/organ_contacts.h"
+#include "plugins/simulation/rough_spell.h"
+#include "plugins/simulation/scene_assets.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -61,7 +62,8 @@ std::shared_ptr<io::OutputFolder> take_folder(const std::filesystem::path& folde
 
 /// Before the folder is taken: who refuses the simulation costs no earlier run.
 std::vector<std::unique_ptr<RunWatcher>> watchers_of(const RunOptions& options,
-                                                     Simulation& simulation, PictureTaker* taker) {
+                                                     simulation::Simulation& simulation,
+                                                     PictureTaker* taker) {
   std::vector<std::unique_ptr<RunWatcher>> all;
   for (const MakeWatcher& make : options.watchers) all.push_back(make(simulation, taker));
   return all;
@@ -86,7 +88,7 @@ class Started {
     go_to_state(simulation, state, options.load_state);
   }
 
-  Simulation simulation;
+  simulation::Simulation simulation;
   std::uint64_t model = 0;  // model_hash(), where the state is to be saved
 };
 
@@ -108,9 +110,9 @@ class Run {
     result_.output = output_;
     if (output_) output_->file("log.csv"), output_->file("events.csv");
     if (output_ && simulation_.assets()->coupling.plant_contact)
-      organ_contacts_ =
-          std::make_unique<OrganContactLog>(output_->file("organ_contacts.csv"), scene.log_rate);
-    add_channels(recorder_, simulation_);
+      organ_contacts_ = std::make_unique<simulation::OrganContactLog>(
+          output_->file("organ_contacts.csv"), scene.log_rate);
+    simulation::add_channels(recorder_, simulation_);
     begin_at(simulation_.world());
     recorder_.open();
     simulation_.world().set_recorder(&recorder_);
@@ -165,7 +167,7 @@ class Run {
     result_.wall += timer.seconds();
     ++result_.steps;
     for (const auto& all = simulation_.plant_step().detached(); events_ < all.size(); ++events_) {
-      recorder_.add_event(to_event(all[events_]));
+      recorder_.add_event(simulation::to_event(all[events_]));
       say(Verbosity::everything, "t = %.4f s: %s comes off (%s)", report.time,
           all[events_].fruit.c_str(), all[events_].event.cause.c_str());
       picture_event();
@@ -250,7 +252,7 @@ class Run {
     result_.ms_per_step_p95 = percentile(milliseconds_, 0.95);
     result_.largest_stretch = simulation_.measurements().largest_stretch();
     result_.state_hash = simulation_.state_hash();
-    result_.residual = worst_residual(simulation_.plants());
+    result_.residual = simulation::worst_residual(simulation_.plants());
     result_.events = recorder_.events();
     result_.gentleness = simulation_.gentleness().total();
     result_.handled = handled_organs(simulation_);
@@ -326,7 +328,8 @@ class Run {
     for (int p = 0; p < simulation_.rods().size(); ++p) {
       const cosserat::RodModel& model = simulation_.rods().model(p);
       for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
-        result_.limits.push_back({fruit_name(model, f), model.fruits[f].thresholds.stretch,
+        result_.limits.push_back({simulation::fruit_name(model, f),
+                                  model.fruits[f].thresholds.stretch,
                                   model.fruits[f].thresholds.bend});
     }
   }
@@ -382,12 +385,12 @@ class Run {
   const world::Scene& scene_;
   RunOptions options_;
   Started started_;
-  Simulation& simulation_;                  // of started_
+  simulation::Simulation& simulation_;      // of started_
   std::unique_ptr<PictureTaker> pictures_;  // null: none are taken
   std::vector<std::unique_ptr<RunWatcher>> watchers_;
   std::shared_ptr<io::OutputFolder> output_;
   world::Recorder recorder_;
-  RoughSpell rough_;
+  simulation::RoughSpell rough_;
   SceneView view_;
   std::unique_ptr<SensorRecorder> sensors_;
   FrameHistory history_;
@@ -397,7 +400,8 @@ class Run {
   Timer progress_;
   world::SceneVideo video_;
   std::vector<double> milliseconds_;
-  std::unique_ptr<OrganContactLog> organ_contacts_;  // null where plants do not touch each other
+  std::unique_ptr<simulation::OrganContactLog>
+      organ_contacts_;  // null where plants do not touch each other
   std::size_t events_ = 0, cuts_ = 0;
   double next_frame_ = 0.0, last_picture_time_ = -1.0;  // s
   bool wants_history_ = false, strain_history_ = false;

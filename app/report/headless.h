@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/report/compare.h"
-#include "pedicel/app/report/gentleness_table.h"
-#include "pedicel/app/report/log_plots.h"
-#include "pedicel/app/report/run_watcher.h"
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/io/output_folder.h"
-#include "pedicel/world/recorder.h"
+#include "app/report/compare.h"
+#include "app/report/gentleness_table.h"
+#include "app/report/log_plots.h"
+#include "app/report/run_watcher.h"
+#include "engine/io/output_folder.h"
+#include "engine/world/recorder.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -23,7 +23,7 @@ struct ComparisonRequest {
 };
 
 struct RunOptions {
-  SimulationOptions simulation;
+  simulation::SimulationOptions simulation;
   std::filesystem::path out;          ///< folder; empty: nothing is written
   std::filesystem::path log, events;  ///< copies of log.csv and events.csv; empty: none
   std::optional<long> steps;          ///< to be done, in place of the scene's duration
@@ -54,7 +54,7 @@ struct SceneResult {
   std::vector<world::ExpectationResult> verdicts;
   std::optional<Comparison> comparison;  ///< with measured values
   std::vector<world::Event> events;
-  Gentleness::Total gentleness;
+  simulation::Gentleness::Total gentleness;
   std::vector<HandledOrgan> handled;            ///< one by one
   std::vector<StalkLimits> limits;              ///< of every fruit, for the plots
   std::vector<std::filesystem::path> pictures;  ///< in the order taken

@@ -1,4 +1,4 @@
-#include "pedicel/app/report/log_plots.h"
+#include "app/report/log_plots.h"
 
 #include <algorithm>
 #include <array>

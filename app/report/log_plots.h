@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/plots/svg_plot.h"
+#include "engine/io/csv.h"
+#include "engine/plots/svg_plot.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/report/manual.h"
+#include "app/report/manual.h"
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/asset_folder.h"
-#include "pedicel/io/text_file.h"
+#include "engine/core/check.h"
+#include "engine/io/asset_folder.h"
+#include "engine/io/text_file.h"
 
 namespace pedicel::app {
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/report/meta.h"
+#include "app/report/meta.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/report/version.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/simulation/scene_assets.h"
 
 namespace pedicel::app {
 
@@ -22,7 +22,7 @@ Json section(const std::vector<Parameter>& parameters) {
 
 }  // namespace
 
-void write_meta(const std::filesystem::path& path, const Simulation& simulation,
+void write_meta(const std::filesystem::path& path, const simulation::Simulation& simulation,
                 const SceneResult& result) {
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(result.state_hash));
@@ -51,7 +51,7 @@ void write_meta(const std::filesystem::path& path, const Simulation& simulation,
   json["plants"] = Json::array();
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
-    const PlantInfo& info = simulation.plants()[p];
+    const simulation::PlantInfo& info = simulation.plants()[p];
     json["plants"].push_back({{"name", model.name},
                               {"elements", model.size()},
                               {"sampled_nodes", info.sampled_nodes},

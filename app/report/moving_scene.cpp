@@ -1,10 +1,10 @@
-#include "pedicel/app/report/moving_scene.h"
+#include "app/report/moving_scene.h"
 
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 
-#include "pedicel/io/asset_folder.h"
+#include "engine/io/asset_folder.h"
 
 namespace pedicel::app {
 

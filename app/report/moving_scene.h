@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "pedicel/io/html_report.h"
+#include "engine/io/html_report.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/report/result_file.h"
+#include "app/report/result_file.h"
 
 #include <cmath>
 #include <cstdio>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 
@@ -97,7 +97,7 @@ Result of_verdicts(std::span<const world::Expectation> expectations,
 }
 
 Result of_gentleness(const SceneResult& r) {
-  const Gentleness::Total& all = r.gentleness;
+  const simulation::Gentleness::Total& all = r.gentleness;
   Result organs = Result::array();
   for (const HandledOrgan& one : r.handled)
     organs.push_back(

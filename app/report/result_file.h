@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <span>
 
-#include "pedicel/app/report/headless.h"
+#include "app/report/headless.h"
 
 namespace pedicel::app {
 

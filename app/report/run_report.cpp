@@ -1,11 +1,11 @@
-#include "pedicel/app/report/run_report.h"
+#include "app/report/run_report.h"
 
 #include <algorithm>
 
-#include "pedicel/app/report/moving_scene.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/html_report.h"
+#include "app/report/moving_scene.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/html_report.h"
 
 namespace pedicel::app {
 

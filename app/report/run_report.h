@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/plots/svg_plot.h"
-#include "pedicel/plots/svg_polar.h"
+#include "engine/plots/svg_plot.h"
+#include "engine/plots/svg_polar.h"
 
 namespace pedicel::app {
 

@@ -1,16 +1,16 @@
-#include "pedicel/app/report/run_state.h"
+#include "app/report/run_state.h"
 
 #include <charconv>
 #include <cstdio>
 
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/world/settings.h"
+#include "app/report/version.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "engine/io/yaml.h"
+#include "engine/world/settings.h"
+#include "plugins/plant/plant_file.h"
+#include "plugins/simulation/scene_assets.h"
 
 namespace pedicel::app {
 
@@ -62,7 +62,7 @@ void add(StateHash& hash, const cosserat::RodModel& model) {
 
 }  // namespace
 
-std::uint64_t model_hash(const Simulation& simulation) {
+std::uint64_t model_hash(const simulation::Simulation& simulation) {
   StateHash hash;
   hash.add(simulation.state_hash());
   hash.add(simulation.scene().dt);
@@ -99,7 +99,7 @@ void check_sum(const io::YamlNode& node, const RunState& state) {
 
 }  // namespace
 
-RunState state_of(const Simulation& simulation, std::uint64_t model) {
+RunState state_of(const simulation::Simulation& simulation, std::uint64_t model) {
   return {
       version() + " (" + git_hash() + ")", simulation.scene().name, model, simulation.scene().dt,
       simulation.world().steps(),          simulation.state_hash()};
@@ -139,7 +139,8 @@ RunState read_state(const std::filesystem::path& path) {
   return state;
 }
 
-void go_to_state(Simulation& simulation, const RunState& state, const std::filesystem::path& path) {
+void go_to_state(simulation::Simulation& simulation, const RunState& state,
+                 const std::filesystem::path& path) {
   if (model_hash(simulation) != state.model)
     throw InvalidFile({path.string()}, "was saved of scene \"" + state.scene +
                                            "\" with other plants or settings, expected the scene "

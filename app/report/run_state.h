@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/app/run/simulation.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -21,10 +21,10 @@ struct RunState {
   std::uint64_t state = 0;  ///< Simulation::state_hash()
 };
 
-RunState state_of(const Simulation& simulation, std::uint64_t model);
+RunState state_of(const simulation::Simulation& simulation, std::uint64_t model);
 
 /// Of a simulation before its first step: its state, constants of its plants and settings.
-std::uint64_t model_hash(const Simulation& simulation);
+std::uint64_t model_hash(const simulation::Simulation& simulation);
 
 /// Throws io::WriteError.
 void write_state(const std::filesystem::path& path, const RunState& state);
@@ -33,6 +33,7 @@ RunState read_state(const std::filesystem::path& path);
 
 /// Brings a simulation that has not begun to a state. Throws InvalidFile where the state is of
 /// another scene or does not come out bit by bit, Stopped where that is asked for.
-void go_to_state(Simulation& simulation, const RunState& state, const std::filesystem::path& path);
+void go_to_state(simulation::Simulation& simulation, const RunState& state,
+                 const std::filesystem::path& path);
 
 }  // namespace pedicel::app

@@ -3,9 +3,12 @@
 #include <functional>
 #include <memory>
 
+namespace pedicel::simulation {
+class Simulation;
+}  // namespace pedicel::simulation
+
 namespace pedicel::app {
 
-class Simulation;
 class PictureTaker;
 
 /// Looks at a run as it goes: a log of another kind, somebody who listens. It may throw
@@ -20,6 +23,7 @@ class RunWatcher {
 
 /// Makes one for a run; simulation and taker outlive it. The taker is null where the run takes no
 /// pictures.
-using MakeWatcher = std::function<std::unique_ptr<RunWatcher>(Simulation&, PictureTaker*)>;
+using MakeWatcher =
+    std::function<std::unique_ptr<RunWatcher>(simulation::Simulation&, PictureTaker*)>;
 
 }  // namespace pedicel::app

@@ -1,12 +1,12 @@
-#include "pedicel/app/report/scene_report.h"
+#include "app/report/scene_report.h"
 
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/report/log_plots.h"
-#include "pedicel/app/report/run_report.h"
-#include "pedicel/app/report/version.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/report/log_plots.h"
+#include "app/report/run_report.h"
+#include "app/report/version.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 
@@ -49,7 +49,7 @@ ReportTable events_of(const SceneResult& result) {
 /// The sum of all, then what was touched or broke.
 ReportTable gentleness_of(const SceneResult& result) {
   ReportTable table;
-  const Gentleness::Total& all = result.gentleness;
+  const simulation::Gentleness::Total& all = result.gentleness;
   if (all.touched == 0 && all.broken == 0) return table;
   table.header = {"organ",       "peak force (N)",     "impulse (N s)",
                   "margin used", "strain energy (mJ)", "first touched (s)",
@@ -58,7 +58,7 @@ ReportTable gentleness_of(const SceneResult& result) {
                         number(1.0e3 * all.strain_energy), std::to_string(all.touched) + " touched",
                         std::to_string(all.broken) + " fruits"});
   for (const HandledOrgan& one : result.handled) {
-    const Gentleness::Record& r = one.record;
+    const simulation::Gentleness::Record& r = one.record;
     if (!r.touched() && !r.broken) continue;
     table.rows.push_back({one.name, number(r.peak_force), number(r.impulse),
                           one.fruit ? number(r.margin_used) : "",

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "pedicel/app/report/solver_comparison.h"
-#include "pedicel/app/report/sweep.h"
+#include "app/report/solver_comparison.h"
+#include "app/report/sweep.h"
 
 namespace pedicel::app {
 

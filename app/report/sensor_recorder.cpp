@@ -1,11 +1,11 @@
-#include "pedicel/app/report/sensor_recorder.h"
+#include "app/report/sensor_recorder.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "pedicel/app/run/wrench_sensor.h"
-#include "pedicel/app/sense/picture_files.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/sense/picture_files.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/simulation/wrench_sensor.h"
 
 namespace pedicel::app {
 
@@ -29,7 +29,7 @@ std::vector<std::string> file_parts(const Things& things) {
 
 }  // namespace
 
-SensorRecorder::SensorRecorder(const Simulation& simulation, io::OutputFolder& output,
+SensorRecorder::SensorRecorder(const simulation::Simulation& simulation, io::OutputFolder& output,
                                PictureTaker* taker)
     : simulation_(simulation), taker_(taker) {
   open_wrenches(output);

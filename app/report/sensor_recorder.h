@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/app/sense/scene_sensors.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/output_folder.h"
+#include "app/sense/scene_sensors.h"
+#include "engine/io/csv.h"
+#include "engine/io/output_folder.h"
 
 namespace pedicel::app {
 
@@ -15,7 +15,8 @@ namespace pedicel::app {
 class SensorRecorder {
  public:
   /// All must outlive it. `taker` may be null, or take no pictures: then there are none.
-  SensorRecorder(const Simulation& simulation, io::OutputFolder& output, PictureTaker* taker);
+  SensorRecorder(const simulation::Simulation& simulation, io::OutputFolder& output,
+                 PictureTaker* taker);
   ~SensorRecorder();
 
   /// What is due now: to be called at the start, and after every step.
@@ -31,7 +32,7 @@ class SensorRecorder {
   void open_wrenches(io::OutputFolder& output);
   void take(Camera& camera);
 
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   PictureTaker* taker_;
   std::unique_ptr<SceneSensors> sensors_;
   std::vector<Camera> cameras_;

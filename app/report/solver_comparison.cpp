@@ -1,12 +1,12 @@
-#include "pedicel/app/report/solver_comparison.h"
+#include "app/report/solver_comparison.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/core/stop.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/world/settings.h"
+#include "engine/core/stop.h"
+#include "engine/io/csv.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::app {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/report/sweep.h"
+#include "app/report/sweep.h"
 
 namespace pedicel::app {
 

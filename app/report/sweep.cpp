@@ -1,14 +1,14 @@
-#include "pedicel/app/report/sweep.h"
+#include "app/report/sweep.h"
 
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/report/scene_report.h"
-#include "pedicel/app/report/solver_comparison.h"
-#include "pedicel/app/run/scene_plants.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/world/settings.h"
+#include "app/report/scene_report.h"
+#include "app/report/solver_comparison.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/world/settings.h"
+#include "plugins/simulation/scene_plants.h"
 
 namespace pedicel::app {
 
@@ -117,7 +117,7 @@ void check_values(const world::Scene& scene, const RunOptions& options) {
   if (scene.sweep)
     for (const double value : scene.sweep->values) scenes.push_back(scene_of_value(scene, value));
   Diagnostics diagnostics;
-  check_settings(scenes, options.simulation, diagnostics);
+  simulation::check_settings(scenes, options.simulation, diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/app/report/headless.h"
+#include "app/report/headless.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/report/version.h"
+#include "app/report/version.h"
 
 #include <sys/utsname.h>
 

@@ -5,11 +5,11 @@
 #include <list>
 #include <string>
 
-#include "pedicel/app/ros/command_queue.h"
-#include "pedicel/app/ros/dds_node.h"
-#include "pedicel/ros_messages/action_messages.h"
-#include "pedicel/ros_messages/cdr.h"
-#include "pedicel/ros_messages/type_hash.h"
+#include "app/ros/command_queue.h"
+#include "app/ros/dds_node.h"
+#include "engine/ros_messages/action_messages.h"
+#include "engine/ros_messages/cdr.h"
+#include "engine/ros_messages/type_hash.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,8 @@
-#include "pedicel/app/ros/arm_actions.h"
+#include "app/ros/arm_actions.h"
 
 #include <cmath>
 
-#include "pedicel/ros_messages/cdr.h"
+#include "engine/ros_messages/cdr.h"
 
 namespace pedicel::app {
 
@@ -41,7 +41,8 @@ ArmActions::ArmActions(DdsNode& node, CommandQueue& queue, bool gripper, Refuse 
           refuse, [this] { return now(); }});
 }
 
-void ArmActions::lead(const Simulation& simulation, RobotControl& robot, JointFollower& follower) {
+void ArmActions::lead(const simulation::Simulation& simulation, simulation::RobotControl& robot,
+                      JointFollower& follower) {
   paths_->abort();
   if (grips_) grips_->abort();
   simulation_ = &simulation;

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "pedicel/app/ros/action_server.h"
-#include "pedicel/app/ros/joint_follower.h"
-#include "pedicel/app/run/simulation.h"
+#include "app/ros/action_server.h"
+#include "app/ros/joint_follower.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -18,7 +18,8 @@ class ArmActions {
   ArmActions(DdsNode& node, CommandQueue& queue, bool gripper, Refuse refuse);
   /// The simulation that is led from now on; what was followed before is given up. All must stay
   /// until the next call.
-  void lead(const Simulation& simulation, RobotControl& robot, JointFollower& follower);
+  void lead(const simulation::Simulation& simulation, simulation::RobotControl& robot,
+            JointFollower& follower);
   void after_step();
 
  private:
@@ -30,8 +31,8 @@ class ArmActions {
   ActionServer<Grip>::Answer look_at_grip();
   double now() const { return simulation_ ? simulation_->world().time() : 0.0; }
 
-  const Simulation* simulation_ = nullptr;
-  RobotControl* robot_ = nullptr;
+  const simulation::Simulation* simulation_ = nullptr;
+  simulation::RobotControl* robot_ = nullptr;
   JointFollower* follower_ = nullptr;
   struct Path {
     int number = 0;

@@ -1,4 +1,4 @@
-#include "pedicel/app/ros/dds_bytes.h"
+#include "app/ros/dds_bytes.h"
 
 #include <cstring>
 

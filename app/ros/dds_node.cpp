@@ -1,4 +1,4 @@
-#include "pedicel/app/ros/dds_node.h"
+#include "app/ros/dds_node.h"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
@@ -18,8 +18,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "pedicel/app/ros/dds_bytes.h"
-#include "pedicel/app/ros/ros_name.h"
+#include "app/ros/dds_bytes.h"
+#include "app/ros/ros_name.h"
 
 namespace pedicel::app {
 

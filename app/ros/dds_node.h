@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/app/topics/topic_sink.h"
+#include "app/topics/topic_sink.h"
 
 namespace pedicel::app {
 

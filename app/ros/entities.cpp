@@ -1,11 +1,11 @@
-#include "pedicel/app/ros/entities.h"
+#include "app/ros/entities.h"
 
 #include <regex.h>
 
 #include <algorithm>
 #include <set>
 
-#include "pedicel/app/topics/topic_source.h"
+#include "app/topics/topic_source.h"
 
 namespace pedicel::app {
 
@@ -97,7 +97,7 @@ ros::EntityState state_of(double time, const Pose& pose, const Vec3& velocity,
   return state;
 }
 
-void add_plants(const Simulation& simulation, std::vector<Entity>& all) {
+void add_plants(const simulation::Simulation& simulation, std::vector<Entity>& all) {
   const double time = simulation.world().time();
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
@@ -109,7 +109,7 @@ void add_plants(const Simulation& simulation, std::vector<Entity>& all) {
       const auto e = static_cast<std::size_t>(fruit.element);
       if (state.fruit_gone[static_cast<std::size_t>(f)] || !state.alive[e]) continue;
       const Pose pose{point_on(model, state, fruit.element, fruit.back), state.orientation[e]};
-      all.push_back({fruit_name(model, f), ros::EntityCategory::dynamic_object,
+      all.push_back({simulation::fruit_name(model, f), ros::EntityCategory::dynamic_object,
                      state_of(time, pose, velocity_on(model, state, fruit.element, fruit.back),
                               pose.rotation * state.angular_velocity[e])});
     }
@@ -118,10 +118,10 @@ void add_plants(const Simulation& simulation, std::vector<Entity>& all) {
 
 }  // namespace
 
-std::vector<Entity> entities_of(const Simulation& simulation) {
+std::vector<Entity> entities_of(const simulation::Simulation& simulation) {
   std::vector<Entity> all;
   const world::SimWorld& world = simulation.world();
-  if (const RobotControl* robot = simulation.robot())
+  if (const simulation::RobotControl* robot = simulation.robot())
     all.push_back(
         {robot->name(), ros::EntityCategory::robot,
          state_of(world.time(),

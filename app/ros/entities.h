@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/ros_messages/simulation_messages.h"
+#include "engine/ros_messages/simulation_messages.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -17,7 +17,7 @@ struct Entity {
   ros::EntityState state;  ///< in the world; accelerations are not told
 };
 
-std::vector<Entity> entities_of(const Simulation& simulation);
+std::vector<Entity> entities_of(const simulation::Simulation& simulation);
 
 /// Those that a filter leaves: a regular expression (POSIX extended) of the whole name, categories.
 /// Nothing, with the reason in `result`, where the filter cannot be kept to.

@@ -1,10 +1,10 @@
-#include "pedicel/app/ros/interfaces.h"
+#include "app/ros/interfaces.h"
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::app {
 

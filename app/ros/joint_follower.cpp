@@ -1,4 +1,4 @@
-#include "pedicel/app/ros/joint_follower.h"
+#include "app/ros/joint_follower.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,9 @@ bool all_within_reach(const std::vector<double>& values) {
 
 }  // namespace
 
-JointFollower::JointFollower(RobotControl& robot)
+JointFollower::JointFollower(simulation::RobotControl& robot)
     : robot_(robot),
-      speed_(manual_speed(robot.robot().model(), robot.description())),
+      speed_(simulation::manual_speed(robot.robot().model(), robot.description())),
       paths_(static_cast<std::size_t>(robot.robot().model().dofs())),
       columns_(paths_.size(), 0),
       targets_(paths_.size(), 0.0) {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "pedicel/app/run/robot_control.h"
-#include "pedicel/ros_messages/control_messages.h"
+#include "engine/ros_messages/control_messages.h"
+#include "plugins/simulation/robot_control.h"
 
 namespace pedicel::app {
 
@@ -17,7 +17,7 @@ class JointFollower : public world::Participant {
   static constexpr std::size_t most_points = 100000;
 
   /// The robot must outlive it. To be added to the world.
-  explicit JointFollower(RobotControl& robot);
+  explicit JointFollower(simulation::RobotControl& robot);
 
   /// A path for some joints.
   struct Plan {
@@ -51,7 +51,7 @@ class JointFollower : public world::Participant {
   void take_over();
   double told(int joint) const;
 
-  RobotControl& robot_;
+  simulation::RobotControl& robot_;
   Eigen::VectorXd speed_;
   bool leads_ = false;
   int last_ = 0;

@@ -1,4 +1,4 @@
-#include "pedicel/app/ros/ros_name.h"
+#include "app/ros/ros_name.h"
 
 #include <cctype>
 

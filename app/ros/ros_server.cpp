@@ -1,17 +1,17 @@
-#include "pedicel/app/ros/ros_server.h"
+#include "app/ros/ros_server.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 
-#include "pedicel/app/ros/ros_services.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/app/topics/camera_topics.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/ros_messages/cdr.h"
-#include "pedicel/ros_messages/type_hash.h"
+#include "app/ros/ros_services.h"
+#include "app/topics/camera_topics.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/csv.h"
+#include "engine/ros_messages/cdr.h"
+#include "engine/ros_messages/type_hash.h"
 
 namespace pedicel::app {
 
@@ -29,7 +29,7 @@ double wall_seconds() {
 RosServer::RosServer(const world::Scene& scene, const RosOptions& options)
     : options_(options),
       edits_(scene, options.simulation),
-      assets_(std::make_shared<const SceneAssets>(scene, options.simulation)),
+      assets_(std::make_shared<const simulation::SceneAssets>(scene, options.simulation)),
       state_(options.paused ? State::paused : State::playing),
       node_(std::make_unique<DdsNode>(options.node)),
       sink_(std::make_unique<RosSink>(*node_)) {
@@ -71,8 +71,8 @@ void RosServer::begin() {
   // What was led until now stays until nobody looks at it any more.
   const auto before = std::move(simulation_);
   const auto follower_before = std::move(follower_);
-  simulation_ = std::make_unique<Simulation>(assets_);
-  if (RobotControl* robot = simulation_->robot()) {
+  simulation_ = std::make_unique<simulation::Simulation>(assets_);
+  if (simulation::RobotControl* robot = simulation_->robot()) {
     follower_ = std::make_unique<JointFollower>(*robot);
     simulation_->world().add(*follower_);
     actions_->lead(*simulation_, *robot, *follower_);
@@ -85,11 +85,11 @@ void RosServer::begin() {
 }
 
 bool RosServer::rebuild(const SceneEdits& edits, std::string& fault) {
-  std::shared_ptr<const SceneAssets> assets;
+  std::shared_ptr<const simulation::SceneAssets> assets;
   try {
-    assets = std::make_shared<const SceneAssets>(edits.scene(), edits.options());
+    assets = std::make_shared<const simulation::SceneAssets>(edits.scene(), edits.options());
     // Bodies, loads and contacts are checked by what is built of them.
-    const Simulation trial(assets);
+    const simulation::Simulation trial(assets);
   } catch (const std::exception& refused) {
     fault = refused.what();
     return false;

@@ -4,21 +4,21 @@
 #include <memory>
 #include <optional>
 
-#include "pedicel/app/ros/arm_actions.h"
-#include "pedicel/app/ros/command_queue.h"
-#include "pedicel/app/ros/entities.h"
-#include "pedicel/app/ros/joint_follower.h"
-#include "pedicel/app/ros/ros_sink.h"
-#include "pedicel/app/ros/scene_edits.h"
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/app/topics/both_sinks.h"
-#include "pedicel/app/topics/mcap_log.h"
+#include "app/ros/arm_actions.h"
+#include "app/ros/command_queue.h"
+#include "app/ros/entities.h"
+#include "app/ros/joint_follower.h"
+#include "app/ros/ros_sink.h"
+#include "app/ros/scene_edits.h"
+#include "app/topics/both_sinks.h"
+#include "app/topics/mcap_log.h"
+#include "plugins/simulation/scene_assets.h"
 
 namespace pedicel::app {
 
 struct RosOptions {
   NodeOptions node;
-  SimulationOptions simulation;
+  simulation::SimulationOptions simulation;
   double pace = 1.0;               ///< simulated seconds a second; 0: as fast as it can
   bool paused = false;             ///< waits for a step or for play
   std::optional<double> duration;  ///< s, simulated; absent: until it is stopped
@@ -56,8 +56,8 @@ class RosServer {
 
   RosOptions options_;
   SceneEdits edits_;
-  std::shared_ptr<const SceneAssets> assets_;
-  std::unique_ptr<Simulation> simulation_;
+  std::shared_ptr<const simulation::SceneAssets> assets_;
+  std::unique_ptr<simulation::Simulation> simulation_;
   std::unique_ptr<JointFollower> follower_;  // null: no robot
   CommandQueue queue_;
   std::unique_ptr<PictureTaker> taker_;  // null: no cameras

@@ -1,9 +1,9 @@
-#include "pedicel/app/ros/ros_services.h"
+#include "app/ros/ros_services.h"
 
 #include <algorithm>
 
-#include "pedicel/core/stop.h"
-#include "pedicel/ros_messages/type_hash.h"
+#include "engine/core/stop.h"
+#include "engine/ros_messages/type_hash.h"
 
 namespace pedicel::app {
 

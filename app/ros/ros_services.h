@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "pedicel/app/ros/ros_server.h"
-#include "pedicel/ros_messages/cdr.h"
+#include "app/ros/ros_server.h"
+#include "engine/ros_messages/cdr.h"
 
 namespace pedicel::app {
 

@@ -1,6 +1,6 @@
-#include "pedicel/app/ros/ros_sink.h"
+#include "app/ros/ros_sink.h"
 
-#include "pedicel/ros_messages/type_hash.h"
+#include "engine/ros_messages/type_hash.h"
 
 namespace pedicel::app {
 

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "pedicel/app/ros/dds_node.h"
+#include "app/ros/dds_node.h"
 
 namespace pedicel::app {
 

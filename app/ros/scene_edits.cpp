@@ -1,15 +1,15 @@
-#include "pedicel/app/ros/scene_edits.h"
+#include "app/ros/scene_edits.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "pedicel/app/topics/topic_source.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/world/scene_sections.h"
+#include "app/topics/topic_source.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/text_file.h"
+#include "engine/io/yaml.h"
+#include "engine/world/scene_sections.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::app {
 
@@ -53,7 +53,7 @@ constexpr const char* pose_fault =
 
 }  // namespace
 
-SceneEdits::SceneEdits(const world::Scene& scene, const SimulationOptions& options)
+SceneEdits::SceneEdits(const world::Scene& scene, const simulation::SimulationOptions& options)
     : first_scene_(scene), first_options_(options), scene_(scene), options_(options) {}
 
 void SceneEdits::reset() {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/ros_messages/simulation_messages.h"
+#include "engine/ros_messages/simulation_messages.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -11,10 +11,10 @@ namespace pedicel::app {
 /// built of it here, and each function leaves it as it was where it says no.
 class SceneEdits {
  public:
-  SceneEdits(const world::Scene& scene, const SimulationOptions& options);
+  SceneEdits(const world::Scene& scene, const simulation::SimulationOptions& options);
 
   const world::Scene& scene() const { return scene_; }
-  const SimulationOptions& options() const { return options_; }
+  const simulation::SimulationOptions& options() const { return options_; }
   /// As the file says it.
   void reset();
   /// Goes on with another plan for the same file.
@@ -36,9 +36,9 @@ class SceneEdits {
                             const std::filesystem::path& file, const Pose& pose);
 
   const world::Scene first_scene_;
-  const SimulationOptions first_options_;
+  const simulation::SimulationOptions first_options_;
   world::Scene scene_;
-  SimulationOptions options_;
+  simulation::SimulationOptions options_;
   bool edited_ = false;
 };
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/sense/camera_matrices.h"
+#include "app/sense/camera_matrices.h"
 
 namespace pedicel::app {
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/sense/keypoints.h"
+#include "app/sense/keypoints.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
-#include "pedicel/app/run/place.h"
+#include "plugins/simulation/place.h"
 
 namespace pedicel::app {
 
@@ -23,8 +23,8 @@ Keypoint keypoint(render::Label thing, Kind kind, const Vec3& position, double r
 }
 
 /// Foot and tip of what is left of every stem, branch and stalk.
-void add_stems(std::vector<Keypoint>& all, const Simulation& simulation, const NamedThings& things,
-               int plant) {
+void add_stems(std::vector<Keypoint>& all, const simulation::Simulation& simulation,
+               const NamedThings& things, int plant) {
   const cosserat::RodModel& model = simulation.rods().model(plant);
   const cosserat::RodState& state = simulation.rods().state(plant);
   std::vector<std::optional<Keypoint>> foot(model.organs.size()), tip(model.organs.size());
@@ -43,8 +43,8 @@ void add_stems(std::vector<Keypoint>& all, const Simulation& simulation, const N
     if (foot[o]) all.push_back(*foot[o]), all.push_back(*tip[o]);
 }
 
-void add_fruits(std::vector<Keypoint>& all, const Simulation& simulation, const NamedThings& things,
-                int plant) {
+void add_fruits(std::vector<Keypoint>& all, const simulation::Simulation& simulation,
+                const NamedThings& things, int plant) {
   const cosserat::RodModel& model = simulation.rods().model(plant);
   const cosserat::RodState& state = simulation.rods().state(plant);
   for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
@@ -54,7 +54,8 @@ void add_fruits(std::vector<Keypoint>& all, const Simulation& simulation, const 
     if (!state.fruit_gone[f]) {
       centre = cosserat::point_on(model, state, fruit.element, fruit.back);
       attachment = cosserat::start_of(model, state, fruit.element);
-    } else if (const auto fallen = fallen_fruit(simulation, plant, f); fallen && fallen->cut) {
+    } else if (const auto fallen = simulation::fallen_fruit(simulation, plant, f);
+               fallen && fallen->cut) {
       // It still hangs on its stalk, which is a part of the body that was cut off.
       centre = fallen->centre;
       const Pose body = simulation.world().body_pose(fallen->body);
@@ -62,7 +63,7 @@ void add_fruits(std::vector<Keypoint>& all, const Simulation& simulation, const 
       attachment = body * carried->stalk_B;
     } else {
       const auto& detached = simulation.plant_step().detached();
-      const auto found = std::ranges::find_if(detached, [&](const Detached& one) {
+      const auto found = std::ranges::find_if(detached, [&](const simulation::Detached& one) {
         return one.plant == plant && one.event.fruit == f;
       });
       if (found == detached.end() || found->body < 0) continue;
@@ -82,7 +83,8 @@ std::string_view name_of(Keypoint::Kind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::vector<Keypoint> keypoints_of(const Simulation& simulation, const NamedThings& things) {
+std::vector<Keypoint> keypoints_of(const simulation::Simulation& simulation,
+                                   const NamedThings& things) {
   std::vector<Keypoint> all;
   for (int p = 0; p < simulation.rods().size(); ++p) {
     add_stems(all, simulation, things, p);

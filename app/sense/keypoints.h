@@ -3,9 +3,9 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/app/draw/named_things.h"
-#include "pedicel/app/sense/camera_matrices.h"
-#include "pedicel/render/label_map.h"
+#include "app/draw/named_things.h"
+#include "app/sense/camera_matrices.h"
+#include "engine/render/label_map.h"
 
 namespace pedicel::app {
 
@@ -29,7 +29,8 @@ std::string_view name_of(Keypoint::Kind kind);
 
 /// The keypoints of every organ that is there, in the order of their labels. What went off with a
 /// fruit goes on with it; a leaf has none.
-std::vector<Keypoint> keypoints_of(const Simulation& simulation, const NamedThings& things);
+std::vector<Keypoint> keypoints_of(const simulation::Simulation& simulation,
+                                   const NamedThings& things);
 
 /// A keypoint lies inside its organ. It is seen where nothing is nearer than the organ's surface:
 /// the picture's depth there is at least its own less 1.1 times the radius less this.

@@ -1,4 +1,4 @@
-#include "pedicel/app/sense/noise.h"
+#include "app/sense/noise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "pedicel/app/sense/sensed_picture.h"
-#include "pedicel/core/random.h"
-#include "pedicel/world/sensors.h"
+#include "app/sense/sensed_picture.h"
+#include "engine/core/random.h"
+#include "engine/world/sensors.h"
 
 namespace pedicel::app {
 

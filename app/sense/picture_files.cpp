@@ -1,10 +1,10 @@
-#include "pedicel/app/sense/picture_files.h"
+#include "app/sense/picture_files.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "pedicel/app/sense/point_cloud.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/sense/point_cloud.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/sense/sensed_picture.h"
-#include "pedicel/world/sensors.h"
+#include "app/sense/sensed_picture.h"
+#include "engine/world/sensors.h"
 
 namespace pedicel::app {
 

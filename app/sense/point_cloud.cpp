@@ -1,4 +1,4 @@
-#include "pedicel/app/sense/point_cloud.h"
+#include "app/sense/point_cloud.h"
 
 #include <cmath>
 #include <cstring>

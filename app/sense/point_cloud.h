@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/app/sense/sensed_picture.h"
+#include "app/sense/sensed_picture.h"
 
 namespace pedicel::app {
 

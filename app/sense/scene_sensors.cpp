@@ -1,10 +1,10 @@
-#include "pedicel/app/sense/scene_sensors.h"
+#include "app/sense/scene_sensors.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/draw/tint.h"
-#include "pedicel/core/check.h"
+#include "app/draw/tint.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 
@@ -22,7 +22,7 @@ render::RenderSettings fast(render::RenderSettings settings) {
 
 }  // namespace
 
-SceneSensors::SceneSensors(const Simulation& simulation)
+SceneSensors::SceneSensors(const simulation::Simulation& simulation)
     : simulation_(simulation), view_(simulation) {
   for (const world::SceneCamera& one : simulation.scene().cameras)
     longest_latency_ = std::max(longest_latency_, one.noise.latency);

@@ -3,7 +3,7 @@
 #include <deque>
 #include <memory>
 
-#include "pedicel/app/sense/noise.h"
+#include "app/sense/noise.h"
 
 namespace pedicel::app {
 
@@ -19,7 +19,7 @@ struct SenseRequest {
 /// The cameras of a simulation, which must outlive it.
 class SceneSensors {
  public:
-  explicit SceneSensors(const Simulation& simulation);
+  explicit SceneSensors(const simulation::Simulation& simulation);
 
   const NamedThings& things() const { return view_.things(); }
   /// The same labels for other pictures of the simulation.
@@ -49,7 +49,7 @@ class SceneSensors {
   void see(Seen& seen);
   int camera_index(const std::string& name) const;
 
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   SceneView view_;
   double longest_latency_ = 0.0;  // s
   std::deque<Seen> past_;

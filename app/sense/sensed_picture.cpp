@@ -1,8 +1,8 @@
-#include "pedicel/app/sense/sensed_picture.h"
+#include "app/sense/sensed_picture.h"
 
 #include <cmath>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/app/draw/scene_view.h"
-#include "pedicel/app/sense/keypoints.h"
+#include "app/draw/scene_view.h"
+#include "app/sense/keypoints.h"
 
 namespace pedicel::app {
 

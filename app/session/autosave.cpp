@@ -1,8 +1,8 @@
-#include "pedicel/app/session/autosave.h"
+#include "app/session/autosave.h"
 
 #include <cstdlib>
 
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "pedicel/app/session/journal.h"
-#include "pedicel/app/session/messages.h"
+#include "app/session/journal.h"
+#include "app/session/messages.h"
 
 namespace pedicel::app {
 

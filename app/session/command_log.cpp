@@ -1,4 +1,4 @@
-#include "pedicel/app/session/command_log.h"
+#include "app/session/command_log.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/commands/command.h"
+#include "app/session/commands/command.h"
 
 namespace pedicel::app {
 

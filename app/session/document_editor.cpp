@@ -1,7 +1,7 @@
-#include "pedicel/app/session/document_editor.h"
+#include "app/session/document_editor.h"
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/document/scene_references.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/document/scene_references.h"
 
 namespace pedicel::app {
 
@@ -48,8 +48,8 @@ void DocumentEditor::rebuild(bool restart) {
   unbuilt_.reset();
   control_.build(
       [document = document_, packages = packages_] {
-        return std::make_shared<const SceneAssets>(scene_of(document),
-                                                   options_of(document, packages));
+        return std::make_shared<const simulation::SceneAssets>(scene_of(document),
+                                                               options_of(document, packages));
       },
       hash_, restart);
 }

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/autosave.h"
-#include "pedicel/app/session/command_log.h"
-#include "pedicel/app/session/history.h"
-#include "pedicel/app/session/live/run_control.h"
-#include "pedicel/app/session/messages.h"
-#include "pedicel/app/session/result.h"
+#include "app/session/autosave.h"
+#include "app/session/command_log.h"
+#include "app/session/history.h"
+#include "app/session/live/run_control.h"
+#include "app/session/messages.h"
+#include "app/session/result.h"
 
 namespace pedicel::app {
 

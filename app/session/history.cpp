@@ -1,6 +1,6 @@
-#include "pedicel/app/session/history.h"
+#include "app/session/history.h"
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

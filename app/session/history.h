@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/commands/command.h"
-#include "pedicel/app/session/document/document.h"
+#include "app/session/commands/command.h"
+#include "app/session/document/document.h"
 
 namespace pedicel::app {
 

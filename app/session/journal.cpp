@@ -1,4 +1,4 @@
-#include "pedicel/app/session/journal.h"
+#include "app/session/journal.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,10 +11,10 @@
 #include <cstdio>
 #include <cstring>
 
-#include "pedicel/app/session/commands/command.h"
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_writer.h"
+#include "app/session/commands/command.h"
+#include "app/session/commands/scene_things.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_writer.h"
 
 namespace pedicel::app {
 

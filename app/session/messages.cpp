@@ -1,4 +1,4 @@
-#include "pedicel/app/session/messages.h"
+#include "app/session/messages.h"
 
 #include <algorithm>
 

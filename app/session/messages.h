@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::app {
 

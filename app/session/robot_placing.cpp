@@ -1,16 +1,16 @@
-#include "pedicel/app/session/robot_placing.h"
+#include "app/session/robot_placing.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/asset_folder.h"
-#include "pedicel/plant/plant_edit.h"
-#include "pedicel/robot/inverse_kinematics.h"
-#include "pedicel/urdf/urdf_reader.h"
+#include "app/session/commands/scene_things.h"
+#include "engine/core/check.h"
+#include "engine/io/asset_folder.h"
+#include "engine/robot/inverse_kinematics.h"
+#include "engine/urdf/urdf_reader.h"
+#include "plugins/plant/plant_edit.h"
 
 namespace pedicel::app {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/commands/command.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/robot/description.h"
+#include "app/session/commands/command.h"
+#include "app/session/document/document.h"
+#include "engine/robot/description.h"
 
 /// What a robot gets by itself when it is added to a scene.
 namespace pedicel::app {

@@ -1,4 +1,4 @@
-#include "pedicel/app/session/run_edits.h"
+#include "app/session/run_edits.h"
 
 namespace pedicel::app {
 

@@ -1,9 +1,9 @@
-#include "pedicel/app/session/script.h"
+#include "app/session/script.h"
 
 #include <sstream>
 
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <ostream>
 
-#include "pedicel/app/session/session.h"
+#include "app/session/session.h"
 
 namespace pedicel::app {
 

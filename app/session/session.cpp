@@ -1,16 +1,17 @@
-#include "pedicel/app/session/session.h"
+#include "app/session/session.h"
 
 #include <algorithm>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_films.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/app/session/session_recovery.h"
-#include "pedicel/app/session/session_robot.h"
-#include "pedicel/app/session/session_tuning.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/live/pull.h"
+#include "app/session/session_files.h"
+#include "app/session/session_films.h"
+#include "app/session/session_measured.h"
+#include "app/session/session_recovery.h"
+#include "app/session/session_robot.h"
+#include "app/session/session_tuning.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/commands/command.h"
-#include "pedicel/app/session/session_core.h"
+#include "app/session/commands/command.h"
+#include "app/session/session_core.h"
 
 namespace pedicel::app {
 

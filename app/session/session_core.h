@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/autosave.h"
-#include "pedicel/app/session/document_editor.h"
-#include "pedicel/app/session/live/run_control.h"
-#include "pedicel/app/session/messages.h"
-#include "pedicel/app/session/run_edits.h"
+#include "app/session/autosave.h"
+#include "app/session/document_editor.h"
+#include "app/session/live/run_control.h"
+#include "app/session/messages.h"
+#include "app/session/run_edits.h"
 
 namespace pedicel::app {
 

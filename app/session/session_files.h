@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/file_texts.h"
-#include "pedicel/app/session/result.h"
+#include "app/session/document/document.h"
+#include "app/session/document/file_texts.h"
+#include "app/session/result.h"
 
 namespace pedicel::app {
 

@@ -1,10 +1,10 @@
-#include "pedicel/app/session/session_films.h"
+#include "app/session/session_films.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/session/session_core.h"
-#include "pedicel/core/check.h"
+#include "app/session/session_core.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

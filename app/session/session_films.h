@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/app/session/film.h"
-#include "pedicel/app/session/result.h"
+#include "app/session/film.h"
+#include "app/session/result.h"
 
 namespace pedicel::app {
 

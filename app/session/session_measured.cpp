@@ -1,20 +1,20 @@
-#include "pedicel/app/session/session_measured.h"
+#include "app/session/session_measured.h"
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
-#include "pedicel/app/session/commands/measured_commands.h"
-#include "pedicel/app/session/measured/diagnosis_card.h"
-#include "pedicel/app/session/measured/experiment_reading.h"
-#include "pedicel/app/session/measured/measured_data.h"
-#include "pedicel/app/session/measured/measured_scene.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/report/report.h"
-#include "pedicel/discrepancy/report/scene_diagnosis_files.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/session/commands/measured_commands.h"
+#include "app/session/measured/diagnosis_card.h"
+#include "app/session/measured/experiment_reading.h"
+#include "app/session/measured/measured_data.h"
+#include "app/session/measured/measured_scene.h"
+#include "app/session/session.h"
+#include "app/session/session_files.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/report/report.h"
+#include "plugins/discrepancy/report/scene_diagnosis_files.h"
 
 namespace pedicel::app {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/result.h"
+#include "app/session/result.h"
 
 namespace pedicel::app {
 

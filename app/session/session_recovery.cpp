@@ -1,13 +1,13 @@
-#include "pedicel/app/session/session_recovery.h"
+#include "app/session/session_recovery.h"
 
 #include <chrono>
 #include <ctime>
 #include <utility>
 
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/session/session.h"
+#include "app/session/session_files.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

@@ -1,12 +1,18 @@
-#include "pedicel/app/session/session_robot.h"
+#include "app/session/session_robot.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/session/robot_placing.h"
-#include "pedicel/app/session/session_core.h"
-#include "pedicel/core/check.h"
-#include "pedicel/robot/joint_range.h"
+#include "app/session/document/file_texts.h"
+#include "app/session/live/pick_program.h"
+#include "app/session/live/robot_goal.h"
+#include "app/session/robot_placing.h"
+#include "app/session/session_core.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "engine/robot/joint_range.h"
+#include "plugins/simulation/plants/plant_step.h"
+#include "plugins/simulation/robot_control.h"
 
 namespace pedicel::app {
 
@@ -50,6 +56,29 @@ robot::IkResult descend_in_steps(const robot::KinematicModel& model, robot::IkTa
     q = result.q;
   }
   return result;
+}
+
+/// s, that the joints need from one place to another by hand; the path between rests at both ends,
+/// so that it is one and a half times as fast in its middle.
+double travel_time(const Snapshot& now, const robot::KinematicModel& model,
+                   const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+  if (model.dofs() == 0) return 0.0;
+  const Eigen::VectorXd speed = simulation::manual_speed(model, *now.assets->robot);
+  return 1.5 * (to - from).cwiseAbs().cwiseQuotient(speed).maxCoeff();
+}
+
+/// The rows from 0 s on, and back to the first.
+robot::Trajectory lap_of(const Snapshot& now, const robot::KinematicModel& model,
+                         const robot::Trajectory& program) {
+  std::vector<double> times;
+  for (const double time : program.times()) times.push_back(time - program.times().front());
+  std::vector<Eigen::VectorXd> positions = program.positions();
+  const double back = travel_time(now, model, positions.back(), positions.front());
+  if (back > 0.0) {
+    times.push_back(times.back() + back);
+    positions.push_back(Eigen::VectorXd(positions.front()));
+  }
+  return {std::move(times), std::move(positions)};
 }
 
 }  // namespace
@@ -170,6 +199,127 @@ bool SessionRobot::is_led() const {
       if (verb == one) return true;
   }
   return false;
+}
+
+Result SessionRobot::pick(const std::string& organ, const std::optional<Vec3>& pull_W) {
+  const auto now = snapshot();
+  kinematics_of(*now);  // says where there is no robot
+  const FruitPlace fruit = find_fruit(*now, organ);
+  const robot::Trajectory program =
+      pull_W ? pick_program(*now, fruit, *pull_W) : usual_pick(*now, fruit);
+  core_.run_edits.add("pull", *snapshot(), core_.editor.history().size(),
+                      true);  // undo takes it back
+  const Result result = play(program, false);
+  picked_ = Picked{organ, now->stage, now->step, now->time + program.times().back()};
+  return result;
+}
+
+// A plant that gives way to the end of the pull keeps its fruit: that is said.
+void SessionRobot::update() {
+  constexpr double later = 0.3;  // s, after the pull
+  if (!picked_) return;
+  const auto now = snapshot();
+  if (now->stage != picked_->stage || now->step < picked_->step) return picked_.reset();
+  if (now->time < picked_->end + later) return;
+  const Picked picked = *std::exchange(picked_, std::nullopt);
+  for (const PlantSnapshot& plant : now->plants)
+    for (int f = 0; f < static_cast<int>(plant.model->fruits.size()); ++f) {
+      const auto index = static_cast<std::size_t>(f);
+      const auto element = static_cast<std::size_t>(plant.model->fruits[index].element);
+      if (simulation::fruit_name(*plant.model, f) != picked.organ || !plant.state.alive[element])
+        continue;
+      const long used = std::lround(100.0 * plant.margin_used[index]);
+      core_.messages.say(Severity::warning,
+                         "warning: " + picked.organ +
+                             " was not taken off: at the end its stalk bears " +
+                             std::to_string(used) +
+                             " % of what breaks it (a stiffer plant, a weaker stalk or "
+                             "\"pick ... pull=X,Y,Z\" another way helps)");
+    }
+}
+
+robot::Trajectory SessionRobot::waypoint_trajectory(const robot::KinematicModel& model) const {
+  if (core_.editor.document().waypoints.empty())
+    throw UsageError("no waypoints, expected some to be recorded");
+  std::vector<double> times;
+  std::vector<Eigen::VectorXd> positions;
+  for (const RobotWaypoint& one : core_.editor.document().waypoints) {
+    if (static_cast<int>(one.joints.size()) != model.dofs())
+      throw UsageError("the waypoint at " + io::format_number(one.time) + " s has " +
+                       std::to_string(one.joints.size()) + " joints, expected " +
+                       std::to_string(model.dofs()));
+    // A place that the robot was in may lie a little outside of the limits.
+    for (int i = 0; i < model.dofs(); ++i)
+      if (const auto fault =
+              robot::outside_range(model, i, one.joints[static_cast<std::size_t>(i)], 0.01))
+        throw UsageError("the waypoint at " + io::format_number(one.time) + " s: " + *fault);
+    times.push_back(one.time);
+    positions.push_back(model.clamped(Eigen::Map<const Eigen::VectorXd>(
+        one.joints.data(), static_cast<Eigen::Index>(one.joints.size()))));
+  }
+  return {std::move(times), std::move(positions)};
+}
+
+// A program that begins later than now begins with the way there.
+Result SessionRobot::play(robot::Trajectory program, bool loops) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  std::vector<double> times = program.times();
+  std::vector<Eigen::VectorXd> positions = program.positions();
+  if (!loops) {
+    if (times.front() > 0.0) {
+      times.insert(times.begin(), 0.0);
+      positions.insert(positions.begin(), now->robot.q);
+    }
+    core_.control.play_trajectory({std::move(times), std::move(positions)});
+    return {};
+  }
+  if (times.size() < 2) throw UsageError("one place is no loop, expected two or more");
+  const double lead = std::max(times.front(), travel_time(*now, model, now->robot.q, positions[0]));
+  robot::Trajectory way = lead > 0.0 ? robot::Trajectory({0.0, lead}, {now->robot.q, positions[0]})
+                                     : robot::Trajectory({0.0}, {positions[0]});
+  core_.control.play_loop(std::move(way), lap_of(*now, model, program));
+  return {};
+}
+
+Result SessionRobot::play_waypoints(bool loops) {
+  return play(waypoint_trajectory(kinematics_of(*snapshot())), loops);
+}
+
+Result SessionRobot::play_trajectory(const std::filesystem::path& file, bool loops) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  Diagnostics diagnostics;
+  robot::Trajectory trajectory =
+      robot::read_trajectory_csv(file, *now->assets->robot, model, now->robot.q, diagnostics);
+  if (diagnostics.has_errors()) return {false, sentences(diagnostics.all()), true};
+  return play(std::move(trajectory), loops);
+}
+
+Result SessionRobot::save_waypoints(const std::filesystem::path& file) const {
+  const robot::KinematicModel model = kinematics_of(*snapshot());
+  write_with_backup(file, robot::trajectory_csv(waypoint_trajectory(model), model));
+  return {};
+}
+
+Result SessionRobot::load_waypoints(const std::filesystem::path& file) {
+  const auto now = snapshot();
+  const robot::KinematicModel model = kinematics_of(*now);
+  Diagnostics diagnostics;
+  const robot::Trajectory read =
+      robot::read_trajectory_csv(file, *now->assets->robot, model, now->robot.q, diagnostics);
+  if (diagnostics.has_errors()) return {false, sentences(diagnostics.all()), true};
+  std::vector<double> joints;
+  for (const Eigen::VectorXd& row : read.positions())
+    joints.insert(joints.end(), row.begin(), row.end());
+  return core_.editor.change(
+      Command("set waypoints", {{"times", read.times()}, {"joints", std::move(joints)}}));
+}
+
+Result SessionRobot::stop() {
+  kinematics_of(*snapshot());  // says where there is no robot
+  core_.control.stop_robot();
+  return {};
 }
 
 }  // namespace pedicel::app

@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/app/session/commands/command.h"
-#include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/app/session/result.h"
-#include "pedicel/robot/inverse_kinematics.h"
-#include "pedicel/robot/trajectory.h"
+#include "app/session/commands/command.h"
+#include "app/session/live/robot_goal.h"
+#include "app/session/live/snapshot.h"
+#include "app/session/result.h"
+#include "engine/robot/inverse_kinematics.h"
+#include "engine/robot/trajectory.h"
 
 namespace pedicel::app {
 

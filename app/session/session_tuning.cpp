@@ -1,10 +1,10 @@
-#include "pedicel/app/session/session_tuning.h"
+#include "app/session/session_tuning.h"
 
-#include "pedicel/app/plants/plant_overrides.h"
-#include "pedicel/app/session/document/plant_parameters.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/core/check.h"
+#include "app/session/document/plant_parameters.h"
+#include "app/session/session.h"
+#include "app/session/session_files.h"
+#include "engine/core/check.h"
+#include "plugins/simulation/plants/plant_overrides.h"
 
 namespace pedicel::app {
 
@@ -54,7 +54,7 @@ Result SessionTuning::keep() {
     if (!one.file || scene.plants[p].set.size() == one.entry.set.size()) continue;
     plant::PlantFile changed = *one.file;
     Diagnostics diagnostics;
-    apply_plant_overrides(changed, scene.plants[p].set, diagnostics);
+    simulation::apply_plant_overrides(changed, scene.plants[p].set, diagnostics);
     if (diagnostics.has_errors()) {
       editor.cancel_gesture();
       return {false, sentences(diagnostics.all())};

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/document/document_parameters.h"
-#include "pedicel/app/session/result.h"
+#include "app/session/document/document_parameters.h"
+#include "app/session/result.h"
 
 namespace pedicel::app {
 

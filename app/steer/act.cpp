@@ -1,10 +1,10 @@
-#include "pedicel/app/steer/act.h"
+#include "app/steer/act.h"
 
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

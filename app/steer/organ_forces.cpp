@@ -1,4 +1,4 @@
-#include "pedicel/app/steer/organ_forces.h"
+#include "app/steer/organ_forces.h"
 
 #include <algorithm>
 
@@ -6,7 +6,8 @@ namespace pedicel::app {
 
 void OrganForces::set(const std::string& organ, double at, const Vec3& force_W,
                       const Vec3& moment_W) {
-  const PlaceOnPlant place = find_organ_place(simulation_.rods(), organ, at);
+  const simulation::PlaceOnPlant place =
+      simulation::find_organ_place(simulation_.rods(), organ, at);
   const auto found = std::ranges::find_if(
       all_, [&](const One& one) { return one.organ == organ && one.at == at; });
   if (found != all_.end()) {
@@ -38,7 +39,7 @@ void OrganForces::act(world::SimWorld& world, world::WorldReport&) {
 }
 
 void OrganForces::push_fallen(const One& one, world::SimWorld& world) const {
-  for (const Detached& fallen : simulation_.plant_step().detached()) {
+  for (const simulation::Detached& fallen : simulation_.plant_step().detached()) {
     if (fallen.plant != one.place.plant || fallen.body < 0) continue;
     const cosserat::Fruit& fruit =
         simulation_.rods().model(fallen.plant).fruits[fallen.event.fruit];

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/steer/state_layout.h"
-#include "pedicel/world/sim_world.h"
+#include "app/steer/state_layout.h"
+#include "engine/world/sim_world.h"
 
 namespace pedicel::app {
 
@@ -13,7 +13,7 @@ namespace pedicel::app {
 class OrganForces : public world::Participant {
  public:
   /// The simulation must outlive it, and it the simulation's last step.
-  explicit OrganForces(Simulation& simulation) : simulation_(simulation) {}
+  explicit OrganForces(simulation::Simulation& simulation) : simulation_(simulation) {}
 
   /// N and N m in the world, at a place of an organ (find_organ_place()). One at the same place of
   /// the same organ takes its place. Throws UsageError where there is no such organ.
@@ -27,13 +27,13 @@ class OrganForces : public world::Participant {
   struct One {
     std::string organ;
     double at = 0.0;
-    PlaceOnPlant place;
+    simulation::PlaceOnPlant place;
     std::size_t slot = 0;  // in RodSystem::loads()
     Vec3 force_W = Vec3::Zero(), moment_W = Vec3::Zero();
   };
   void push_fallen(const One& one, world::SimWorld& world) const;
 
-  Simulation& simulation_;
+  simulation::Simulation& simulation_;
   std::vector<One> all_;
 };
 

@@ -1,10 +1,10 @@
-#include "pedicel/app/steer/saved_run.h"
+#include "app/steer/saved_run.h"
 
 #include <cinttypes>
 #include <cstdio>
 #include <sstream>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

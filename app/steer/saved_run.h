@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/steer/act.h"
+#include "app/steer/act.h"
 
 namespace pedicel::app {
 

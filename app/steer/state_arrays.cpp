@@ -1,11 +1,11 @@
-#include "pedicel/app/steer/state_arrays.h"
+#include "app/steer/state_arrays.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "pedicel/app/plants/plant_step.h"
-#include "pedicel/app/run/place.h"
+#include "plugins/simulation/place.h"
+#include "plugins/simulation/plants/plant_step.h"
 
 namespace pedicel::app {
 
@@ -80,7 +80,7 @@ void StateArrays::each_flag(Field field, int world, int first, int count, const 
   for (int i = 0; i < count; ++i) to[i] = read(i);
 }
 
-void StateArrays::fill(const Simulation& simulation, int world) {
+void StateArrays::fill(const simulation::Simulation& simulation, int world) {
   for (int p = 0; p < simulation.rods().size(); ++p) {
     fill_segments(simulation, world, p);
     fill_fruits(simulation, world, p);
@@ -98,7 +98,7 @@ void StateArrays::fill(const Simulation& simulation, int world) {
   fill_energies(simulation, world);
 }
 
-void StateArrays::fill_segments(const Simulation& simulation, int world, int plant) {
+void StateArrays::fill_segments(const simulation::Simulation& simulation, int world, int plant) {
   const cosserat::RodModel& model = simulation.rods().model(plant);
   const cosserat::RodState& state = simulation.rods().state(plant);
   const int first = layout_.first_segment[plant], count = model.size();
@@ -122,7 +122,7 @@ void StateArrays::fill_segments(const Simulation& simulation, int world, int pla
   each_flag(Field::attached, world, first, count, [&](int e) { return state.alive[e] != 0; });
 }
 
-void StateArrays::fill_fruits(const Simulation& simulation, int world, int plant) {
+void StateArrays::fill_fruits(const simulation::Simulation& simulation, int world, int plant) {
   const cosserat::RodModel& model = simulation.rods().model(plant);
   const cosserat::RodState& state = simulation.rods().state(plant);
   const int first = layout_.first_fruit[plant], count = static_cast<int>(model.fruits.size());
@@ -140,25 +140,26 @@ void StateArrays::fill_fruits(const Simulation& simulation, int world, int plant
   });
 }
 
-void StateArrays::fill_moving_fruits(const Simulation& simulation, int world, int plant) {
+void StateArrays::fill_moving_fruits(const simulation::Simulation& simulation, int world,
+                                     int plant) {
   const cosserat::RodModel& model = simulation.rods().model(plant);
   const cosserat::RodState& state = simulation.rods().state(plant);
   const int first = layout_.first_fruit[plant], count = static_cast<int>(model.fruits.size());
   each(Field::fruit_positions, world, first, count, [&](double* to, int f) {
-    const auto fallen = fallen_fruit(simulation, plant, f);
+    const auto fallen = simulation::fallen_fruit(simulation, plant, f);
     write(to,
           fallen ? fallen->centre
                  : cosserat::point_on(model, state, model.fruits[f].element, model.fruits[f].back));
   });
   each(Field::fruit_velocities, world, first, count, [&](double* to, int f) {
-    const auto fallen = fallen_fruit(simulation, plant, f);
+    const auto fallen = simulation::fallen_fruit(simulation, plant, f);
     write(to, fallen ? fallen->velocity
                      : cosserat::velocity_on(model, state, model.fruits[f].element,
                                              model.fruits[f].back));
   });
 }
 
-void StateArrays::fill_organs(const Simulation& simulation, int world, int plant) {
+void StateArrays::fill_organs(const simulation::Simulation& simulation, int world, int plant) {
   const auto& contacts = simulation.plant_step().contacts().organs(plant);
   const int first = layout_.first_organ[plant];
   const int count = static_cast<int>(simulation.rods().model(plant).organs.size());
@@ -168,7 +169,7 @@ void StateArrays::fill_organs(const Simulation& simulation, int world, int plant
        [&](double* to, int o) { *to = contacts[o].normal; });
 }
 
-void StateArrays::fill_robot(const RobotControl& robot, int world) {
+void StateArrays::fill_robot(const simulation::RobotControl& robot, int world) {
   const int joints = layout_.rows(Rows::joint);
   const robot::Robot& one = robot.robot();
   each(Field::joint_positions, world, 0, joints,
@@ -182,7 +183,7 @@ void StateArrays::fill_robot(const RobotControl& robot, int world) {
   each(Field::tool_pose, world, 0, 1, [&](double* to, int) { write(to, robot.tool_pose()); });
 }
 
-void StateArrays::fill_touching(const Simulation& simulation, int world) {
+void StateArrays::fill_touching(const simulation::Simulation& simulation, int world) {
   const auto& sums = simulation.plant_step().contacts().colliders();
   // What was added since the start are fruits that fell.
   const std::size_t known = std::min(sums.size(), layout_.touching_of.size());
@@ -200,7 +201,7 @@ void StateArrays::fill_touching(const Simulation& simulation, int world) {
   });
 }
 
-void StateArrays::fill_energies(const Simulation& simulation, int world) {
+void StateArrays::fill_energies(const simulation::Simulation& simulation, int world) {
   each(Field::energies, world, 0, 1, [&](double* to, int) {
     std::fill_n(to, 3, 0.0);
     for (int p = 0; p < simulation.rods().size(); ++p) {

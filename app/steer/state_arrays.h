@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pedicel/app/steer/state_layout.h"
+#include "app/steer/state_layout.h"
 
 namespace pedicel::app {
 
@@ -18,7 +18,7 @@ class StateArrays {
   /// From now on fill() writes the field. Whether it did not before: then it is to be filled now.
   bool want(Field field);
   /// Writes all wanted fields of a world. Worlds may be filled at once.
-  void fill(const Simulation& simulation, int world);
+  void fill(const simulation::Simulation& simulation, int world);
 
   int worlds() const { return worlds_; }
   const StateLayout& layout() const { return layout_; }
@@ -35,13 +35,13 @@ class StateArrays {
   void each(Field field, int world, int first, int count, const Write& write);
   template <class Read>
   void each_flag(Field field, int world, int first, int count, const Read& read);
-  void fill_segments(const Simulation& simulation, int world, int plant);
-  void fill_fruits(const Simulation& simulation, int world, int plant);
-  void fill_moving_fruits(const Simulation& simulation, int world, int plant);
-  void fill_organs(const Simulation& simulation, int world, int plant);
-  void fill_robot(const RobotControl& robot, int world);
-  void fill_touching(const Simulation& simulation, int world);
-  void fill_energies(const Simulation& simulation, int world);
+  void fill_segments(const simulation::Simulation& simulation, int world, int plant);
+  void fill_fruits(const simulation::Simulation& simulation, int world, int plant);
+  void fill_moving_fruits(const simulation::Simulation& simulation, int world, int plant);
+  void fill_organs(const simulation::Simulation& simulation, int world, int plant);
+  void fill_robot(const simulation::RobotControl& robot, int world);
+  void fill_touching(const simulation::Simulation& simulation, int world);
+  void fill_energies(const simulation::Simulation& simulation, int world);
 
   StateLayout layout_;
   int worlds_;

@@ -1,4 +1,4 @@
-#include "pedicel/app/steer/state_fields.h"
+#include "app/steer/state_fields.h"
 
 #include <array>
 

@@ -1,9 +1,9 @@
-#include "pedicel/app/steer/state_layout.h"
+#include "app/steer/state_layout.h"
 
 #include <algorithm>
 
-#include "pedicel/app/plants/plant_step.h"
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
+#include "plugins/simulation/plants/plant_step.h"
 
 namespace pedicel::app {
 
@@ -25,7 +25,7 @@ void add_plant(StateLayout& layout, const cosserat::RodModel& model) {
   }
   for (const std::string& organ : model.organs) names_of(layout, Rows::organ).push_back(organ);
   for (std::size_t f = 0; f < model.fruits.size(); ++f)
-    names_of(layout, Rows::fruit).push_back(fruit_name(model, static_cast<int>(f)));
+    names_of(layout, Rows::fruit).push_back(simulation::fruit_name(model, static_cast<int>(f)));
 }
 
 // Colliders of one link or body are one row. Fruits that fall become colliders later on.
@@ -41,13 +41,13 @@ void add_touching(StateLayout& layout, const coupling::ColliderSet& colliders) {
 
 }  // namespace
 
-StateLayout::StateLayout(const Simulation& simulation) {
+StateLayout::StateLayout(const simulation::Simulation& simulation) {
   names_of(*this, Rows::one).emplace_back();
   for (int p = 0; p < simulation.rods().size(); ++p) add_plant(*this, simulation.rods().model(p));
   first_segment.push_back(rows(Rows::segment));
   first_fruit.push_back(rows(Rows::fruit));
   first_organ.push_back(rows(Rows::organ));
-  if (const RobotControl* robot = simulation.robot()) {
+  if (const simulation::RobotControl* robot = simulation.robot()) {
     names_of(*this, Rows::joint) = robot->robot().model().joint_names();
     for (const robot::Link& link : robot->description().links)
       names_of(*this, Rows::link).push_back(link.name);

@@ -5,15 +5,15 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/plants/organ_places.h"
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/app/steer/state_fields.h"
+#include "app/steer/state_fields.h"
+#include "plugins/simulation/plants/organ_places.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
 /// What the rows of a state are: the same as long as a scene is the same.
 struct StateLayout {
-  explicit StateLayout(const Simulation& simulation);
+  explicit StateLayout(const simulation::Simulation& simulation);
   bool operator==(const StateLayout&) const = default;
 
   int rows(Rows kind) const { return static_cast<int>(names[static_cast<int>(kind)].size()); }

@@ -1,13 +1,13 @@
-#include "pedicel/app/steer/steered_run.h"
+#include "app/steer/steered_run.h"
 
 #include <cmath>
 
-#include "pedicel/app/report/run_state.h"
-#include "pedicel/app/session/document/settings_check.h"
-#include "pedicel/app/steer/tool_reach.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/world/settings.h"
+#include "app/report/run_state.h"
+#include "app/session/document/settings_check.h"
+#include "app/steer/tool_reach.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::app {
 
@@ -28,7 +28,7 @@ void expect_finite(const Act& act) {
     if (!std::isfinite(number)) throw UsageError("a number is not finite, expected finite ones");
 }
 
-RobotControl& led_robot(Simulation& simulation) {
+simulation::RobotControl& led_robot(simulation::Simulation& simulation) {
   robot_of(simulation);
   return *simulation.robot();
 }
@@ -43,7 +43,8 @@ SteeredScene::SteeredScene(Document opened, std::vector<std::string> wanted_pack
 
 void SteeredScene::build() {
   check_settings(document);
-  assets = std::make_shared<const SceneAssets>(scene_of(document), options_of(document, packages));
+  assets = std::make_shared<const simulation::SceneAssets>(scene_of(document),
+                                                           options_of(document, packages));
 }
 
 std::shared_ptr<const SteeredScene> SteeredScene::with(const Settings& settings) const {
@@ -64,7 +65,7 @@ SteeredRun::SteeredRun(std::shared_ptr<const SteeredScene> scene)
 void SteeredRun::begin() {
   // The forces are of the simulation that goes.
   forces_.reset();
-  simulation_ = std::make_unique<Simulation>(scene_->assets);
+  simulation_ = std::make_unique<simulation::Simulation>(scene_->assets);
   forces_ = std::make_unique<OrganForces>(*simulation_);
   simulation_->world().add(*forces_);
   now_ = scene_;
@@ -99,7 +100,7 @@ void SteeredRun::carry_out(const Act& act) {
     case Act::Kind::torque:
       return set_targets(act);
     case Act::Kind::go_to: {
-      RobotControl& robot = led_robot(*simulation_);
+      simulation::RobotControl& robot = led_robot(*simulation_);
       expect(act, static_cast<std::size_t>(robot.robot().model().dofs()), "one a joint");
       expect_finite(act);
       return robot.go_to(
@@ -132,7 +133,7 @@ void SteeredRun::carry_out(const Act& act) {
 }
 
 void SteeredRun::set_targets(const Act& act) {
-  RobotControl& robot = led_robot(*simulation_);
+  simulation::RobotControl& robot = led_robot(*simulation_);
   const int dofs = robot.robot().model().dofs();
   expect(act, static_cast<std::size_t>(dofs), "one a joint");
   for (const double number : act.numbers)

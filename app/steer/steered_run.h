@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/steer/organ_forces.h"
-#include "pedicel/app/steer/saved_run.h"
-#include "pedicel/app/steer/state_arrays.h"
+#include "app/session/document/document.h"
+#include "app/steer/organ_forces.h"
+#include "app/steer/saved_run.h"
+#include "app/steer/state_arrays.h"
+#include "plugins/simulation/scene_assets.h"
 
 namespace pedicel::app {
 
@@ -25,7 +25,7 @@ struct SteeredScene {
   Document files;     ///< as it was opened
   Document document;  ///< with the settings
   std::vector<std::string> packages;
-  std::shared_ptr<const SceneAssets> assets;
+  std::shared_ptr<const simulation::SceneAssets> assets;
 
  private:
   void build();
@@ -42,8 +42,8 @@ class SteeredRun {
   const SteeredScene& scene() const { return *scene_; }
   /// The same with what was set since.
   const SteeredScene& constants() const { return *now_; }
-  Simulation& simulation() { return *simulation_; }
-  const Simulation& simulation() const { return *simulation_; }
+  simulation::Simulation& simulation() { return *simulation_; }
+  const simulation::Simulation& simulation() const { return *simulation_; }
   long steps() const { return simulation_->world().steps(); }
   /// Another number with each simulation(): what was made for one is of no use for the next.
   long generation() const { return generation_; }
@@ -77,7 +77,7 @@ class SteeredRun {
   std::shared_ptr<const SteeredScene> made_;   // that it was made with
   std::shared_ptr<const SteeredScene> scene_;  // that it began with
   std::shared_ptr<const SteeredScene> now_;    // whose constants count
-  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<simulation::Simulation> simulation_;
   std::unique_ptr<OrganForces> forces_;  // of simulation_
   std::uint64_t model_ = 0;              // model_hash() at its start
   std::vector<Act> acts_;

@@ -1,10 +1,10 @@
-#include "pedicel/app/steer/steered_worlds.h"
+#include "app/steer/steered_worlds.h"
 
 #include <exception>
 #include <mutex>
 #include <thread>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/app/steer/steered_run.h"
-#include "pedicel/core/thread_pool.h"
+#include "app/steer/steered_run.h"
+#include "engine/core/thread_pool.h"
 
 namespace pedicel::app {
 

@@ -1,15 +1,15 @@
-#include "pedicel/app/steer/tool_reach.h"
+#include "app/steer/tool_reach.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 
 namespace {
 
-Pose tool_at(const RobotControl& robot, const Eigen::VectorXd& q, const Vec3& offset) {
+Pose tool_at(const simulation::RobotControl& robot, const Eigen::VectorXd& q, const Vec3& offset) {
   const Pose link = robot.robot().model().link_pose(q, robot.tool_link());
   return {link * offset, link.rotation};
 }
@@ -39,14 +39,14 @@ robot::IkResult lead(const robot::KinematicModel& model, robot::IkTarget target,
 
 }  // namespace
 
-const RobotControl& robot_of(const Simulation& simulation) {
+const simulation::RobotControl& robot_of(const simulation::Simulation& simulation) {
   if (!simulation.robot()) throw UsageError("the scene has no robot, expected one");
   return *simulation.robot();
 }
 
-robot::IkResult reach_tool(const Simulation& simulation, const Vec3& position_W,
+robot::IkResult reach_tool(const simulation::Simulation& simulation, const Vec3& position_W,
                            const std::optional<Quat>& orientation_W, const Eigen::VectorXd& start) {
-  const RobotControl& robot = robot_of(simulation);
+  const simulation::RobotControl& robot = robot_of(simulation);
   const robot::KinematicModel& model = robot.robot().model();
   const Vec3& offset = simulation.scene().robot->tool_offset;
   const Pose now = tool_at(robot, start, offset);

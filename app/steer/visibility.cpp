@@ -1,14 +1,14 @@
-#include "pedicel/app/steer/visibility.h"
+#include "app/steer/visibility.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "pedicel/app/run/place.h"
-#include "pedicel/app/steer/state_layout.h"
-#include "pedicel/core/check.h"
-#include "pedicel/geometry/closest_point.h"
+#include "app/steer/state_layout.h"
+#include "engine/core/check.h"
+#include "engine/geometry/closest_point.h"
+#include "plugins/simulation/place.h"
 
 namespace pedicel::app {
 
@@ -44,7 +44,7 @@ using Triangle = std::array<Vec3, 3>;
 /// What may stand before a fruit: only what comes near the way to it.
 class Obstacles {
  public:
-  Obstacles(const Simulation& simulation, const Sight& axis, double radius)
+  Obstacles(const simulation::Simulation& simulation, const Sight& axis, double radius)
       : simulation_(simulation), axis_(axis), radius_(radius) {}
 
   void add_plant(int plant, int own_fruit) {
@@ -63,7 +63,8 @@ class Obstacles {
           cosserat::point_on(model, state, model.fruits[f].element, model.fruits[f].back);
       add({centre, centre, model.fruits[f].radius, model.fruits[f].radius});
     }
-    for (const Blade& blade : simulation_.plants()[plant].blades) add_blade(model, state, blade);
+    for (const simulation::Blade& blade : simulation_.plants()[plant].blades)
+      add_blade(model, state, blade);
   }
 
   bool hide(const Sight& sight) const {
@@ -87,7 +88,7 @@ class Obstacles {
   }
 
   void add_blade(const cosserat::RodModel& model, const cosserat::RodState& state,
-                 const Blade& blade) {
+                 const simulation::Blade& blade) {
     Triangle one;
     for (std::size_t i = 0; i < 3; ++i) {
       if (!state.alive[blade[i].element]) return;
@@ -119,7 +120,7 @@ class Obstacles {
     return false;
   }
 
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   Sight axis_;
   double radius_;
   std::string left_out_;
@@ -131,27 +132,29 @@ struct FruitPlace {
   int plant = 0, fruit = 0;
 };
 
-FruitPlace find_fruit_of(const Simulation& simulation, const std::string& name) {
+FruitPlace find_fruit_of(const simulation::Simulation& simulation, const std::string& name) {
   std::vector<std::string> names;
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
-      names.push_back(fruit_name(model, f));
+      names.push_back(simulation::fruit_name(model, f));
       if (names.back() == name) return {p, f};
     }
   }
-  throw UsageError("no fruit " + in_quotes(name) + ", expected one of: " + list_of(names));
+  throw UsageError("no fruit " + in_quotes(name) +
+                   ", expected one of: " + simulation::list_of(names));
 }
 
 }  // namespace
 
-double visible_share(const Simulation& simulation, const std::string& fruit, const Vec3& eye_W) {
+double visible_share(const simulation::Simulation& simulation, const std::string& fruit,
+                     const Vec3& eye_W) {
   const FruitPlace found = find_fruit_of(simulation, fruit);
   const cosserat::Fruit& one = simulation.rods().model(found.plant).fruits[found.fruit];
   world::Anchor anchor;
   anchor.kind = world::Anchor::Kind::fruit;
   anchor.name = fruit;
-  const Vec3 centre = *place_of(simulation, anchor);
+  const Vec3 centre = *simulation::place_of(simulation, anchor);
   Obstacles obstacles(simulation, {eye_W, centre}, one.radius);
   const bool off = simulation.rods().state(found.plant).fruit_gone[found.fruit];
   if (off) obstacles.leave_out(fruit);
@@ -173,15 +176,16 @@ double visible_share(const Simulation& simulation, const std::string& fruit, con
   return static_cast<double>(seen) / rays;
 }
 
-Vec3 camera_place(const Simulation& simulation, const std::string& camera) {
+Vec3 camera_place(const simulation::Simulation& simulation, const std::string& camera) {
   std::vector<std::string> names;
   for (const world::SceneCamera& one : simulation.scene().cameras) {
     names.push_back(one.name);
     if (!camera.empty() && one.name != camera) continue;
     if (one.follow.kind == world::Anchor::Kind::none) return one.eye;
-    return one.eye + place_of(simulation, one.follow).value_or(Vec3::Zero());
+    return one.eye + simulation::place_of(simulation, one.follow).value_or(Vec3::Zero());
   }
-  throw UsageError("no camera " + in_quotes(camera) + ", expected one of: " + list_of(names));
+  throw UsageError("no camera " + in_quotes(camera) +
+                   ", expected one of: " + simulation::list_of(names));
 }
 
 }  // namespace pedicel::app

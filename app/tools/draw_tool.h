@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/live/draw_surface.h"
-#include "pedicel/app/tools/drawn_shape.h"
-#include "pedicel/app/tools/radius_handles.h"
-#include "pedicel/app/tools/tie_stroke.h"
-#include "pedicel/app/tools/trim_brush.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/view/scene_mouse.h"
-#include "pedicel/plant/plant_pick.h"
-#include "pedicel/render/draw_list.h"
+#include "app/session/live/draw_surface.h"
+#include "app/tools/drawn_shape.h"
+#include "app/tools/radius_handles.h"
+#include "app/tools/tie_stroke.h"
+#include "app/tools/trim_brush.h"
+#include "app/ui/ui.h"
+#include "app/view/scene_mouse.h"
+#include "engine/render/draw_list.h"
+#include "plugins/plant/plant_pick.h"
 
 namespace pedicel::app {
 

@@ -1,9 +1,9 @@
-#include "pedicel/app/tools/drawn_shape.h"
+#include "app/tools/drawn_shape.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
-#include "pedicel/plant/plant_graph.h"
+#include "engine/core/check.h"
+#include "plugins/plant/plant_graph.h"
 
 namespace pedicel::app {
 

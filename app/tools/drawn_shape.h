@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/geometry/curve.h"
-#include "pedicel/plant/stroke_fit.h"
+#include "app/ui/ui.h"
+#include "engine/geometry/curve.h"
+#include "plugins/plant/stroke_fit.h"
 
 namespace pedicel::app {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/view/scene_mouse.h"
-#include "pedicel/plant/plant_file.h"
+#include "app/view/scene_mouse.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::app {
 

@@ -1,14 +1,14 @@
-#include "pedicel/app/tools/tie_stroke.h"
+#include "app/tools/tie_stroke.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/draw/drawing.h"
-#include "pedicel/app/editors/tie_editor.h"
-#include "pedicel/app/session/live/draw_surface.h"
-#include "pedicel/app/ui/selection_follow.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/app/view/picking.h"
+#include "app/draw/drawing.h"
+#include "app/editors/tie_editor.h"
+#include "app/session/live/draw_surface.h"
+#include "app/ui/selection_follow.h"
+#include "app/ui/widgets.h"
+#include "app/view/picking.h"
 
 namespace pedicel::app {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/view/rigid_shapes.h"
-#include "pedicel/app/view/scene_mouse.h"
-#include "pedicel/render/draw_list.h"
+#include "app/ui/ui.h"
+#include "app/view/rigid_shapes.h"
+#include "app/view/scene_mouse.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::app {
 

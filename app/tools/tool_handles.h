@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/view/scene_mouse.h"
+#include "app/session/live/robot_goal.h"
+#include "app/ui/ui.h"
+#include "app/view/scene_mouse.h"
 
 namespace pedicel::app {
 

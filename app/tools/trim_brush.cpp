@@ -1,8 +1,8 @@
-#include "pedicel/app/tools/trim_brush.h"
+#include "app/tools/trim_brush.h"
 
 #include <algorithm>
 
-#include "pedicel/app/session/live/organ_place.h"
+#include "app/session/live/organ_place.h"
 
 namespace pedicel::app {
 

@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "pedicel/app/tools/drawn_shape.h"
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/view/scene_mouse.h"
-#include "pedicel/render/draw_list.h"
+#include "app/tools/drawn_shape.h"
+#include "app/ui/ui.h"
+#include "app/view/scene_mouse.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::app {
 

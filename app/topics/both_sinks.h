@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/topics/topic_sink.h"
+#include "app/topics/topic_sink.h"
 
 namespace pedicel::app {
 

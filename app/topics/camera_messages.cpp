@@ -1,4 +1,4 @@
-#include "pedicel/app/topics/camera_messages.h"
+#include "app/topics/camera_messages.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/app/sense/sensed_picture.h"
-#include "pedicel/ros_messages/sensor_messages.h"
+#include "app/sense/sensed_picture.h"
+#include "engine/ros_messages/sensor_messages.h"
 
 /// What a camera saw as messages. The header is the caller's.
 namespace pedicel::app {

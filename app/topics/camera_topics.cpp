@@ -1,9 +1,9 @@
-#include "pedicel/app/topics/camera_topics.h"
+#include "app/topics/camera_topics.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "pedicel/app/topics/camera_messages.h"
+#include "app/topics/camera_messages.h"
 
 namespace pedicel::app {
 
@@ -37,7 +37,8 @@ struct CameraTopics::Camera {
   std::optional<Teller<ros::PointCloud2>> points;
 };
 
-CameraTopics::CameraTopics(const Simulation& simulation, TopicSink& sink, PictureTaker& taker)
+CameraTopics::CameraTopics(const simulation::Simulation& simulation, TopicSink& sink,
+                           PictureTaker& taker)
     : simulation_(simulation),
       taker_(taker),
       sensors_(simulation),

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/app/sense/scene_sensors.h"
-#include "pedicel/app/topics/topic_source.h"
-#include "pedicel/ros_messages/sensor_messages.h"
+#include "app/sense/scene_sensors.h"
+#include "app/topics/topic_source.h"
+#include "engine/ros_messages/sensor_messages.h"
 
 namespace pedicel::app {
 
@@ -16,7 +16,7 @@ bool has_sensing_camera(const world::Scene& scene);
 class CameraTopics : public TopicSource {
  public:
   /// All must outlive it.
-  CameraTopics(const Simulation& simulation, TopicSink& sink, PictureTaker& taker);
+  CameraTopics(const simulation::Simulation& simulation, TopicSink& sink, PictureTaker& taker);
   ~CameraTopics() override;
   void begin(double time) override;
   void after_step(double time) override;
@@ -25,7 +25,7 @@ class CameraTopics : public TopicSource {
   struct Camera;
   void take(Camera& camera, double time);
 
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   PictureTaker& taker_;
   SceneSensors sensors_;
   Teller<ros::TFMessage> frames_;

@@ -1,12 +1,12 @@
-#include "pedicel/app/topics/frame_topics.h"
+#include "app/topics/frame_topics.h"
 
 namespace pedicel::app {
 
-FrameTopics::FrameTopics(const Simulation& simulation, TopicSink& sink)
+FrameTopics::FrameTopics(const simulation::Simulation& simulation, TopicSink& sink)
     : simulation_(simulation),
       moving_(sink, "/tf", Delivery::reliable),
       fixed_(sink, "/tf_static", Delivery::latched) {
-  if (const RobotControl* robot = simulation.robot())
+  if (const simulation::RobotControl* robot = simulation.robot())
     for (const robot::Link& link : robot->description().links) links_.insert(link.name);
   add_organs();
 }
@@ -22,7 +22,7 @@ void FrameTopics::add_organs() {
     const cosserat::RodModel& model = rods.model(p);
     for (int f = 0; f < static_cast<int>(model.fruits.size()) && fruits <= most_organs; ++f)
       on_plants_.push_back(
-          {p, model.fruits[f].element, model.fruits[f].back, f, fruit_name(model, f)});
+          {p, model.fruits[f].element, model.fruits[f].back, f, simulation::fruit_name(model, f)});
     if (organs > most_organs) continue;
     std::vector<int> last(model.organs.size(), -1);
     for (int e = 0; e < model.size(); ++e) last[model.elements[e].organ] = e;
@@ -32,7 +32,7 @@ void FrameTopics::add_organs() {
 }
 
 void FrameTopics::add_links(double time, bool moving, ros::TFMessage& frames) const {
-  const RobotControl* robot = simulation_.robot();
+  const simulation::RobotControl* robot = simulation_.robot();
   if (!robot) return;
   const robot::RobotDescription& description = robot->description();
   const std::vector<Pose>& poses = robot->link_poses();

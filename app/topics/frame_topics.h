@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "pedicel/app/topics/topic_source.h"
+#include "app/topics/topic_source.h"
 
 namespace pedicel::app {
 
@@ -14,7 +14,7 @@ class FrameTopics : public TopicSource {
   /// Fruits, and organs, beyond this many are left out.
   static constexpr std::size_t most_organs = 300;
 
-  FrameTopics(const Simulation& simulation, TopicSink& sink);
+  FrameTopics(const simulation::Simulation& simulation, TopicSink& sink);
   void begin(double time) override;
   void tell(double time) override;
 
@@ -29,7 +29,7 @@ class FrameTopics : public TopicSource {
   void add_bodies(double time, ros::TFMessage& frames);
   void add_organs();
 
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   Teller<ros::TFMessage> moving_, fixed_;
   std::vector<OnPlant> on_plants_;
   std::vector<std::string> body_frames_;

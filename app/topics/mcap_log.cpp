@@ -1,8 +1,8 @@
-#include "pedicel/app/topics/mcap_log.h"
+#include "app/topics/mcap_log.h"
 
 #include <algorithm>
 
-#include "pedicel/app/report/version.h"
+#include "app/report/version.h"
 
 namespace pedicel::app {
 
@@ -21,7 +21,8 @@ std::string qos_text(Delivery delivery) {
 
 class McapWatcher : public RunWatcher {
  public:
-  McapWatcher(Simulation& simulation, PictureTaker* taker, const std::filesystem::path& file)
+  McapWatcher(simulation::Simulation& simulation, PictureTaker* taker,
+              const std::filesystem::path& file)
       : sink_(file),
         topics_(simulation, sink_, TopicRates{.states = simulation.scene().log_rate}, taker) {}
   void begin() override { topics_.begin(); }
@@ -56,7 +57,7 @@ void McapSink::write(int topic, double time, std::string_view cdr) {
 }
 
 MakeWatcher mcap_log(const std::filesystem::path& file) {
-  return [file](Simulation& simulation, PictureTaker* taker) {
+  return [file](simulation::Simulation& simulation, PictureTaker* taker) {
     return std::make_unique<McapWatcher>(simulation, taker, file);
   };
 }

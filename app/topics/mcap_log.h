@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "pedicel/app/report/run_watcher.h"
-#include "pedicel/app/topics/simulation_topics.h"
-#include "pedicel/mcap/writer.h"
+#include "app/report/run_watcher.h"
+#include "app/topics/simulation_topics.h"
+#include "engine/mcap/writer.h"
 
 namespace pedicel::app {
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/topics/plant_topics.h"
+#include "app/topics/plant_topics.h"
 
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/app/draw/drawing.h"
-#include "pedicel/app/draw/plant_drawing.h"
+#include "app/draw/drawing.h"
+#include "app/draw/plant_drawing.h"
 
 namespace pedicel::app {
 
@@ -22,7 +22,7 @@ void finish(ros::Marker& marker) {
 
 }  // namespace
 
-MarkerTopics::MarkerTopics(const Simulation& simulation, TopicSink& sink)
+MarkerTopics::MarkerTopics(const simulation::Simulation& simulation, TopicSink& sink)
     : simulation_(simulation),
       plants_(sink, "/plant", Delivery::reliable),
       bodies_(sink, "/bodies", Delivery::reliable) {}
@@ -66,17 +66,18 @@ void MarkerTopics::add_stems(int plant, ros::MarkerArray& all) const {
 }
 
 void MarkerTopics::add_leaves(int plant, ros::MarkerArray& all) const {
-  const PlantInfo& info = simulation_.plants()[plant];
+  const simulation::PlantInfo& info = simulation_.plants()[plant];
   if (info.blades.empty()) return;
   const cosserat::RodModel& model = simulation_.rods().model(plant);
   const cosserat::RodState& state = simulation_.rods().state(plant);
   ros::Marker leaves = marker(model.name + "/leaves", 0, ros::Marker::triangle_list);
   leaves.color = colour_of(PlantLook::of(info.look).blade.colour);
-  for (const Blade& blade : info.blades) {
-    if (!std::ranges::all_of(
-            blade, [&](const BladeCorner& corner) { return bool(state.alive[corner.element]); }))
+  for (const simulation::Blade& blade : info.blades) {
+    if (!std::ranges::all_of(blade, [&](const simulation::BladeCorner& corner) {
+          return bool(state.alive[corner.element]);
+        }))
       continue;
-    for (const BladeCorner& corner : blade)
+    for (const simulation::BladeCorner& corner : blade)
       leaves.points.push_back(point_of(point_on(model, state, corner.element, corner.back)));
   }
   finish(leaves);
@@ -104,7 +105,7 @@ void MarkerTopics::add_fruits(int plant, ros::MarkerArray& all) const {
 
 // Each has as many places in every message, so that what lies between two can be shown.
 void MarkerTopics::add_strings(ros::MarkerArray& all) const {
-  const std::vector<SceneTies::One>& ties = simulation_.ties().all();
+  const std::vector<simulation::SceneTies::One>& ties = simulation_.ties().all();
   for (std::size_t t = 0; t < ties.size(); ++t) {
     ros::Marker line = marker("ties", static_cast<int>(t), ros::Marker::line_strip);
     line.color = colour_of(twine);
@@ -157,7 +158,7 @@ void MarkerTopics::tell(double time) {
     bodies_.tell(time, things);
 }
 
-OrganTopic::OrganTopic(const Simulation& simulation, TopicSink& sink)
+OrganTopic::OrganTopic(const simulation::Simulation& simulation, TopicSink& sink)
     : simulation_(simulation), forces_(sink, "/organ_forces", Delivery::sensor) {}
 
 void OrganTopic::tell(double time) {
@@ -183,13 +184,13 @@ void OrganTopic::tell(double time) {
       add(model.organs[o], contacts.organs(p)[o], std::numeric_limits<double>::quiet_NaN());
     for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
       if (!state.fruit_gone[f])
-        add(fruit_name(model, f), contacts.fruits(p)[static_cast<std::size_t>(f)],
+        add(simulation::fruit_name(model, f), contacts.fruits(p)[static_cast<std::size_t>(f)],
             cosserat::margin_used(model, state, f));
   }
   forces_.tell(time, all);
 }
 
-EventTopic::EventTopic(const Simulation& simulation, TopicSink& sink)
+EventTopic::EventTopic(const simulation::Simulation& simulation, TopicSink& sink)
     : simulation_(simulation), events_(sink, "/events", Delivery::reliable) {}
 
 void EventTopic::begin(double) {
@@ -199,7 +200,7 @@ void EventTopic::begin(double) {
 void EventTopic::after_step(double time) {
   const auto& all = simulation_.plant_step().detached();
   for (; told_ < all.size(); ++told_) {
-    const Detached& one = all[told_];
+    const simulation::Detached& one = all[told_];
     const nlohmann::ordered_json event = {
         {"time", one.event.time},     {"event", "detached"},
         {"what", one.fruit},          {"by", ""},

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/app/topics/topic_source.h"
-#include "pedicel/ros_messages/control_messages.h"
-#include "pedicel/ros_messages/marker_messages.h"
+#include "app/topics/topic_source.h"
+#include "engine/ros_messages/control_messages.h"
+#include "engine/ros_messages/marker_messages.h"
 
 namespace pedicel::app {
 
@@ -10,7 +10,7 @@ namespace pedicel::app {
 /// that came off.
 class MarkerTopics : public TopicSource {
  public:
-  MarkerTopics(const Simulation& simulation, TopicSink& sink);
+  MarkerTopics(const simulation::Simulation& simulation, TopicSink& sink);
   void tell(double time) override;
 
  private:
@@ -21,7 +21,7 @@ class MarkerTopics : public TopicSource {
   ros::MarkerArray bodies(double time) const;
   ros::Marker marker(const std::string& ns, int id, std::int32_t type) const;
 
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   Teller<ros::MarkerArray> plants_, bodies_;
   double time_ = 0.0;
 };
@@ -30,11 +30,11 @@ class MarkerTopics : public TopicSource {
 /// forces (N, on the plant, world) and the share of its threshold that is used (1).
 class OrganTopic : public TopicSource {
  public:
-  OrganTopic(const Simulation& simulation, TopicSink& sink);
+  OrganTopic(const simulation::Simulation& simulation, TopicSink& sink);
   void tell(double time) override;
 
  private:
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   Teller<ros::DynamicJointState> forces_;
 };
 
@@ -42,12 +42,12 @@ class OrganTopic : public TopicSource {
 /// "truss/fruit_1", "by": "", "cause": "stretch", ...}.
 class EventTopic : public TopicSource {
  public:
-  EventTopic(const Simulation& simulation, TopicSink& sink);
+  EventTopic(const simulation::Simulation& simulation, TopicSink& sink);
   void begin(double time) override;
   void after_step(double time) override;
 
  private:
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   Teller<ros::String> events_;
   std::size_t told_ = 0;
 };

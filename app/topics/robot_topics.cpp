@@ -1,10 +1,10 @@
-#include "pedicel/app/topics/robot_topics.h"
+#include "app/topics/robot_topics.h"
 
-#include "pedicel/io/text_file.h"
+#include "engine/io/text_file.h"
 
 namespace pedicel::app {
 
-JointTopics::JointTopics(const RobotControl& robot, TopicSink& sink)
+JointTopics::JointTopics(const simulation::RobotControl& robot, TopicSink& sink)
     : robot_(robot),
       states_(sink, "/joint_states", Delivery::sensor),
       commands_(sink, "/joint_commands", Delivery::sensor) {}
@@ -37,7 +37,7 @@ void JointTopics::tell(double time) {
   commands_.tell(time, command);
 }
 
-DescriptionTopic::DescriptionTopic(const RobotControl& robot, TopicSink& sink)
+DescriptionTopic::DescriptionTopic(const simulation::RobotControl& robot, TopicSink& sink)
     : robot_(robot),
       text_(sink, "/robot_description", Delivery::latched,
             {{"file", std::filesystem::absolute(robot.description().file).string()}}) {}

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/app/topics/topic_source.h"
-#include "pedicel/ros_messages/sensor_messages.h"
+#include "app/topics/topic_source.h"
+#include "engine/ros_messages/sensor_messages.h"
 
 /// What the robot tells. Scenes without one have none of these.
 namespace pedicel::app {
@@ -10,22 +10,22 @@ namespace pedicel::app {
 /// /joint_commands: what the controller tells their motors.
 class JointTopics : public TopicSource {
  public:
-  JointTopics(const RobotControl& robot, TopicSink& sink);
+  JointTopics(const simulation::RobotControl& robot, TopicSink& sink);
   void tell(double time) override;
 
  private:
-  const RobotControl& robot_;
+  const simulation::RobotControl& robot_;
   Teller<ros::JointState> states_, commands_;
 };
 
 /// /robot_description: the URDF's text.
 class DescriptionTopic : public TopicSource {
  public:
-  DescriptionTopic(const RobotControl& robot, TopicSink& sink);
+  DescriptionTopic(const simulation::RobotControl& robot, TopicSink& sink);
   void begin(double time) override;
 
  private:
-  const RobotControl& robot_;
+  const simulation::RobotControl& robot_;
   Teller<ros::String> text_;
 };
 

@@ -1,13 +1,13 @@
-#include "pedicel/app/topics/simulation_topics.h"
+#include "app/topics/simulation_topics.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/topics/camera_topics.h"
-#include "pedicel/app/topics/frame_topics.h"
-#include "pedicel/app/topics/plant_topics.h"
-#include "pedicel/app/topics/robot_topics.h"
-#include "pedicel/app/topics/wrench_topic.h"
+#include "app/topics/camera_topics.h"
+#include "app/topics/frame_topics.h"
+#include "app/topics/plant_topics.h"
+#include "app/topics/robot_topics.h"
+#include "app/topics/wrench_topic.h"
 
 namespace pedicel::app {
 
@@ -31,15 +31,15 @@ long due_by(double time, double rate) {
 
 }  // namespace
 
-SimulationTopics::SimulationTopics(Simulation& simulation, TopicSink& sink, const TopicRates& rates,
-                                   PictureTaker* taker)
+SimulationTopics::SimulationTopics(simulation::Simulation& simulation, TopicSink& sink,
+                                   const TopicRates& rates, PictureTaker* taker)
     : simulation_(simulation), sink_(sink) {
   const auto add = [&](std::unique_ptr<TopicSource> source, double rate) {
     all_.push_back({std::move(source), rate, 0});
   };
   // First, so that what follows finds its time told.
   add(std::make_unique<ClockTopic>(sink), rates.states);
-  if (RobotControl* robot = simulation.robot()) {
+  if (simulation::RobotControl* robot = simulation.robot()) {
     add(std::make_unique<DescriptionTopic>(*robot, sink), rates.states);
     add(std::make_unique<JointTopics>(*robot, sink), rates.states);
     // A sensor of the scene that is called so takes its place.

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/app/draw/pictures.h"
-#include "pedicel/app/topics/topic_source.h"
+#include "app/draw/pictures.h"
+#include "app/topics/topic_source.h"
 
 namespace pedicel::app {
 
@@ -18,7 +18,7 @@ class SimulationTopics {
  public:
   /// All must outlive it. `taker`: for the cameras of the scene; null, or one that takes no
   /// pictures: there are none.
-  SimulationTopics(Simulation& simulation, TopicSink& sink, const TopicRates& rates,
+  SimulationTopics(simulation::Simulation& simulation, TopicSink& sink, const TopicRates& rates,
                    PictureTaker* taker = nullptr);
 
   /// Before the first step: what stays as it is, and how all things stand.
@@ -32,7 +32,7 @@ class SimulationTopics {
     double rate = 0.0;  // Hz
     long last = 0;
   };
-  Simulation& simulation_;
+  simulation::Simulation& simulation_;
   TopicSink& sink_;
   std::vector<Due> all_;
 };

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/ros_messages/cdr.h"
+#include "engine/ros_messages/cdr.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/topics/topic_source.h"
+#include "app/topics/topic_source.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/app/topics/topic_sink.h"
-#include "pedicel/ros_messages/common_messages.h"
+#include "app/topics/topic_sink.h"
+#include "engine/ros_messages/common_messages.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 

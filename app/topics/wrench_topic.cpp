@@ -1,12 +1,12 @@
-#include "pedicel/app/topics/wrench_topic.h"
+#include "app/topics/wrench_topic.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/run/colliders.h"
-#include "pedicel/app/run/wrench_sensor.h"
-#include "pedicel/robot/multibody.h"
-#include "pedicel/robot/rigid_groups.h"
+#include "engine/robot/multibody.h"
+#include "engine/robot/rigid_groups.h"
+#include "plugins/simulation/colliders.h"
+#include "plugins/simulation/wrench_sensor.h"
 
 namespace pedicel::app {
 
@@ -20,7 +20,7 @@ Vec3 vector_of_bullet(const btVector3& v) {
 
 }  // namespace
 
-int wrist_link(const RobotControl& robot) {
+int wrist_link(const simulation::RobotControl& robot) {
   const robot::RobotDescription& description = robot.description();
   const auto& joints = robot.robot().model().joint_names();
   const std::string gripper =
@@ -34,7 +34,7 @@ int wrist_link(const RobotControl& robot) {
   return -1;
 }
 
-WrenchTopic::WrenchTopic(Simulation& simulation, TopicSink& sink)
+WrenchTopic::WrenchTopic(simulation::Simulation& simulation, TopicSink& sink)
     : simulation_(simulation),
       wrench_(sink, "/wrist/wrench", Delivery::sensor),
       link_(wrist_link(*simulation.robot())) {
@@ -51,7 +51,7 @@ WrenchTopic::WrenchTopic(Simulation& simulation, TopicSink& sink)
 }
 
 WrenchTopic::Momentum WrenchTopic::momentum_of(int link) const {
-  const RobotControl& robot = *simulation_.robot();
+  const simulation::RobotControl& robot = *simulation_.robot();
   const robot::Inertial& own = robot.description().links[static_cast<std::size_t>(link)].inertial;
   const robot::Twist& twist = robot.robot().link_twists()[static_cast<std::size_t>(link)];
   const Mat3 r = robot.link_pose(link).rotation.toRotationMatrix();
@@ -65,7 +65,7 @@ void WrenchTopic::begin(double) {
 }
 
 void WrenchTopic::add_weight_and_inertia(Force& sum) {
-  const RobotControl& robot = *simulation_.robot();
+  const simulation::RobotControl& robot = *simulation_.robot();
   for (std::size_t l = 0; l < beyond_.size(); ++l) {
     if (!beyond_[l]) continue;
     const robot::Inertial& own = robot.description().links[l].inertial;
@@ -84,7 +84,9 @@ void WrenchTopic::add_plants(Force& sum) const {
   const coupling::ColliderSet& colliders = simulation_.colliders();
   for (int c = 0; c < colliders.size(); ++c) {
     const coupling::Collider& collider = colliders.collider(c);
-    if (collider.body != robot_body || !beyond_[static_cast<std::size_t>(collider.link)]) continue;
+    if (collider.body != simulation::robot_body ||
+        !beyond_[static_cast<std::size_t>(collider.link)])
+      continue;
     const coupling::ContactSum& touch =
         simulation_.plant_step().contacts().colliders()[static_cast<std::size_t>(c)];
     if (touch.contacts == 0) continue;
@@ -140,9 +142,9 @@ void WrenchTopic::after_step(double time) {
   steps_ = 0;
 }
 
-SceneWrenchTopics::SceneWrenchTopics(const Simulation& simulation, TopicSink& sink)
+SceneWrenchTopics::SceneWrenchTopics(const simulation::Simulation& simulation, TopicSink& sink)
     : simulation_(simulation) {
-  for (const WrenchSensor& sensor : simulation.wrenches()) {
+  for (const simulation::WrenchSensor& sensor : simulation.wrenches()) {
     tellers_.emplace_back(sink, "/" + topic_part(sensor.scene().name) + "/wrench",
                           Delivery::sensor);
     told_.push_back(sensor.samples());
@@ -151,10 +153,10 @@ SceneWrenchTopics::SceneWrenchTopics(const Simulation& simulation, TopicSink& si
 
 void SceneWrenchTopics::after_step(double time) {
   for (std::size_t i = 0; i < tellers_.size(); ++i) {
-    const WrenchSensor& sensor = simulation_.wrenches()[i];
+    const simulation::WrenchSensor& sensor = simulation_.wrenches()[i];
     if (sensor.samples() == told_[i]) continue;
     told_[i] = sensor.samples();
-    const Wrench& now = sensor.reading();
+    const simulation::Wrench& now = sensor.reading();
     ros::WrenchStamped message;
     message.header = {ros::stamp_of(sensor.reading_time()), sensor.scene().link};
     message.wrench = {vector_of(now.head<3>()), vector_of(now.tail<3>())};

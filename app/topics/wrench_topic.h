@@ -1,12 +1,12 @@
 #pragma once
 
-#include "pedicel/app/topics/topic_source.h"
+#include "app/topics/topic_source.h"
 
 namespace pedicel::app {
 
 /// The link whose carrier a wrench sensor would sit in: the child of the last joint before the tool
 /// that moves and is not the gripper's; -1: there is none.
-int wrist_link(const RobotControl& robot);
+int wrist_link(const simulation::RobotControl& robot);
 
 /// /wrist/wrench: what the wrist's link and all beyond it exert on what carries them, weight and
 /// inertia included; N and N m about the origin of the link's frame, in that frame (frame_id). From
@@ -15,7 +15,7 @@ int wrist_link(const RobotControl& robot);
 class WrenchTopic : public TopicSource {
  public:
   /// wrist_link() must not be -1.
-  WrenchTopic(Simulation& simulation, TopicSink& sink);
+  WrenchTopic(simulation::Simulation& simulation, TopicSink& sink);
   void begin(double time) override;
   void after_step(double time) override;
 
@@ -31,7 +31,7 @@ class WrenchTopic : public TopicSource {
   void add_bodies(Force& sum) const;
   Vec3 origin() const { return simulation_.robot()->link_pose(link_).position; }
 
-  Simulation& simulation_;
+  simulation::Simulation& simulation_;
   Teller<ros::WrenchStamped> wrench_;
   int link_ = 0;
   std::vector<char> beyond_;         // by link of the description
@@ -45,11 +45,11 @@ class WrenchTopic : public TopicSource {
 /// the link's frame. The stamp is the sample's.
 class SceneWrenchTopics : public TopicSource {
  public:
-  SceneWrenchTopics(const Simulation& simulation, TopicSink& sink);
+  SceneWrenchTopics(const simulation::Simulation& simulation, TopicSink& sink);
   void after_step(double time) override;
 
  private:
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   std::vector<Teller<ros::WrenchStamped>> tellers_;
   std::vector<long> told_;  // samples
 };

@@ -1,4 +1,4 @@
-#include "pedicel/app/ui/bindings.h"
+#include "app/ui/bindings.h"
 
 #include <map>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/platform/input.h"
+#include "app/platform/input.h"
 
 namespace pedicel::app {
 

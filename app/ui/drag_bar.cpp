@@ -1,4 +1,4 @@
-#include "pedicel/app/ui/drag_bar.h"
+#include "app/ui/drag_bar.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -11,7 +11,7 @@
 #include <cstring>
 #include <optional>
 
-#include "pedicel/app/ui/ui.h"
+#include "app/ui/ui.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/ui/free_file_name.h"
+#include "app/ui/free_file_name.h"
 
 #include <array>
 #include <cstdio>

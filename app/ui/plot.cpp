@@ -1,12 +1,12 @@
-#include "pedicel/app/ui/plot.h"
+#include "app/ui/plot.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/widgets.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/ui/preferences.h"
+#include "app/ui/preferences.h"
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

@@ -1,10 +1,10 @@
-#include "pedicel/app/ui/selection_follow.h"
+#include "app/ui/selection_follow.h"
 
 #include <algorithm>
 
-#include "pedicel/app/plants/plant_step.h"
-#include "pedicel/app/session/live/organ_place.h"
-#include "pedicel/app/ui/ui.h"
+#include "app/session/live/organ_place.h"
+#include "app/ui/ui.h"
+#include "plugins/simulation/plants/plant_step.h"
 
 namespace pedicel::app {
 
@@ -36,7 +36,8 @@ Selection fruit_on_plant(Selection found, const std::string& name, const Snapsho
   for (std::size_t p = 0; p < after.plants.size(); ++p) {
     const cosserat::RodModel& model = *after.plants[p].model;
     for (std::size_t f = 0; f < model.fruits.size(); ++f) {
-      if (after.plants[p].state.fruit_gone[f] || fruit_name(model, static_cast<int>(f)) != name)
+      if (after.plants[p].state.fruit_gone[f] ||
+          simulation::fruit_name(model, static_cast<int>(f)) != name)
         continue;
       found.kind = Kind::fruit;
       found.plant = static_cast<int>(p), found.fruit = static_cast<int>(f);

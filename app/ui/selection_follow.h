@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/app/ui/view_state.h"
+#include "app/session/live/snapshot.h"
+#include "app/ui/view_state.h"
 
 namespace pedicel::app {
 

@@ -2,7 +2,7 @@
 
 #include <imgui.h>
 
-#include "pedicel/app/ui/preferences.h"
+#include "app/ui/preferences.h"
 
 namespace pedicel::app {
 

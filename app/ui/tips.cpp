@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "pedicel/app/ui/widgets.h"
+#include "app/ui/widgets.h"
 
 namespace pedicel::app {
 

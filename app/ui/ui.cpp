@@ -1,14 +1,14 @@
-#include "pedicel/app/ui/ui.h"
+#include "app/ui/ui.h"
 
 #include <algorithm>
 
-#include "pedicel/app/plants/plant_step.h"
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/commands/measured_commands.h"
-#include "pedicel/app/session/document/scene_references.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/asset_folder.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/commands/measured_commands.h"
+#include "app/session/document/scene_references.h"
+#include "app/session/session_files.h"
+#include "engine/core/check.h"
+#include "engine/io/asset_folder.h"
+#include "plugins/simulation/plants/plant_step.h"
 
 namespace pedicel::app {
 
@@ -164,7 +164,7 @@ std::string describe(const Selection& s, const Snapshot& snapshot) {
       return "a stem";
     case Kind::fruit:
       if (const auto* model = plant(); model && s.fruit < static_cast<int>(model->fruits.size()))
-        return fruit_name(*model, s.fruit);
+        return simulation::fruit_name(*model, s.fruit);
       return "a fruit";
     case Kind::link:
       if (snapshot.assets && snapshot.assets->robot &&

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/ui/bindings.h"
-#include "pedicel/app/ui/preferences.h"
-#include "pedicel/app/ui/view_state.h"
+#include "app/session/session.h"
+#include "app/ui/bindings.h"
+#include "app/ui/preferences.h"
+#include "app/ui/view_state.h"
 
 struct ImFont;
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/plant/plant_numbers.h"
-#include "pedicel/world/recorder.h"
+#include "engine/core/frames.h"
+#include "engine/world/recorder.h"
+#include "plugins/plant/plant_numbers.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/ui/widgets.h"
+#include "app/ui/widgets.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -10,9 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "pedicel/app/ui/drag_bar.h"
-#include "pedicel/app/ui/theme.h"
-#include "pedicel/app/ui/ui.h"
+#include "app/ui/drag_bar.h"
+#include "app/ui/theme.h"
+#include "app/ui/ui.h"
 
 namespace pedicel::app {
 

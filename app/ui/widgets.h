@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "pedicel/app/ui/bindings.h"
-#include "pedicel/core/frames.h"
+#include "app/ui/bindings.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::app {
 

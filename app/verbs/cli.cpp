@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/cli.h"
+#include "app/verbs/cli.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,46 +8,46 @@
 #include <iostream>
 #include <thread>
 
-#include "pedicel/app/bench/parallel_worlds.h"
-#include "pedicel/app/help/completion.h"
-#include "pedicel/app/help/man_page.h"
-#include "pedicel/app/help/manual.h"
-#include "pedicel/app/plants/rod_options.h"
-#include "pedicel/app/playback/log_film.h"
-#include "pedicel/app/playback/play_off_screen.h"
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/plant_import.h"
-#include "pedicel/app/session/script.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_films.h"
-#include "pedicel/app/verbs/cluster.h"
-#include "pedicel/app/verbs/dataset.h"
-#include "pedicel/app/verbs/diagnose.h"
-#include "pedicel/app/verbs/effective_scene.h"
-#include "pedicel/app/verbs/fit.h"
-#include "pedicel/app/verbs/import.h"
-#include "pedicel/app/verbs/lab.h"
-#include "pedicel/app/verbs/observe.h"
-#include "pedicel/app/verbs/param_sweep.h"
-#include "pedicel/app/verbs/pick.h"
-#include "pedicel/app/verbs/ros_arguments.h"
-#include "pedicel/app/verbs/run_arguments.h"
-#include "pedicel/app/verbs/save_plants.h"
-#include "pedicel/app/verbs/sweep.h"
-#include "pedicel/app/verbs/transfer.h"
-#include "pedicel/app/verbs/validate.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/output_check.h"
-#include "pedicel/io/output_folder.h"
-#include "pedicel/io/output_kind.h"
-#include "pedicel/render/image.h"
-#include "pedicel/world/settings.h"
+#include "app/bench/parallel_worlds.h"
+#include "app/help/completion.h"
+#include "app/help/man_page.h"
+#include "app/help/manual.h"
+#include "app/playback/log_film.h"
+#include "app/playback/play_off_screen.h"
+#include "app/report/version.h"
+#include "app/session/document/document.h"
+#include "app/session/document/plant_import.h"
+#include "app/session/script.h"
+#include "app/session/session_files.h"
+#include "app/session/session_films.h"
+#include "app/verbs/cluster.h"
+#include "app/verbs/dataset.h"
+#include "app/verbs/diagnose.h"
+#include "app/verbs/effective_scene.h"
+#include "app/verbs/fit.h"
+#include "app/verbs/import.h"
+#include "app/verbs/lab.h"
+#include "app/verbs/observe.h"
+#include "app/verbs/param_sweep.h"
+#include "app/verbs/pick.h"
+#include "app/verbs/ros_arguments.h"
+#include "app/verbs/run_arguments.h"
+#include "app/verbs/save_plants.h"
+#include "app/verbs/sweep.h"
+#include "app/verbs/transfer.h"
+#include "app/verbs/validate.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "engine/io/output_check.h"
+#include "engine/io/output_folder.h"
+#include "engine/io/output_kind.h"
+#include "engine/render/image.h"
+#include "engine/world/settings.h"
+#include "plugins/simulation/plants/rod_options.h"
 
 namespace pedicel::app {
 
@@ -276,7 +276,7 @@ BenchOptions bench_options(const BenchArguments& a) {
     rods.push_back({key.substr(5), value, {"--set " + assignment}});
   }
   Diagnostics diagnostics;
-  apply_rod_settings(rods, options.rods, diagnostics);
+  simulation::apply_rod_settings(rods, options.rods, diagnostics);
   if (diagnostics.has_errors()) throw UsageError(diagnostics.text());
   return options;
 }

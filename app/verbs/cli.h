@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/film.h"
+#include "app/session/film.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/cluster.h"
+#include "app/verbs/cluster.h"
 
 #include <unistd.h>
 
@@ -12,15 +12,15 @@
 #include <iterator>
 #include <optional>
 
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/cluster/slurm_queue.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/core/timer.h"
-#include "pedicel/cosserat/lanes/instruction_set.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/report/version.h"
+#include "engine/cluster/slurm_queue.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/core/timer.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/cosserat/lanes/instruction_set.h"
 
 namespace pedicel::app {
 

@@ -4,9 +4,9 @@
 #include <functional>
 #include <string>
 
-#include "pedicel/app/verbs/experiment_run.h"
-#include "pedicel/cluster/campaign.h"
-#include "pedicel/io/output_folder.h"
+#include "app/verbs/experiment_run.h"
+#include "engine/cluster/campaign.h"
+#include "engine/io/output_folder.h"
 
 namespace CLI {
 class App;

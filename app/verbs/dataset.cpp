@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/dataset.h"
+#include "app/verbs/dataset.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -7,23 +7,23 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/app/dataset/data_set.h"
-#include "pedicel/app/plants/plant_overrides.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/app/session/film.h"
-#include "pedicel/app/verbs/cluster.h"
-#include "pedicel/app/verbs/dataset_tasks.h"
-#include "pedicel/app/verbs/run_arguments.h"
-#include "pedicel/cluster/cluster_options.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/files_read.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/output_folder.h"
-#include "pedicel/plant/plant_numbers.h"
-#include "pedicel/plant/plant_shape.h"
-#include "pedicel/render/offscreen.h"
-#include "pedicel/world/settings.h"
+#include "app/dataset/data_set.h"
+#include "app/session/film.h"
+#include "app/verbs/cluster.h"
+#include "app/verbs/dataset_tasks.h"
+#include "app/verbs/run_arguments.h"
+#include "engine/cluster/cluster_options.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/files_read.h"
+#include "engine/core/stop.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/output_folder.h"
+#include "engine/render/offscreen.h"
+#include "engine/world/settings.h"
+#include "plugins/plant/plant_numbers.h"
+#include "plugins/plant/plant_shape.h"
+#include "plugins/simulation/plants/plant_overrides.h"
 
 namespace pedicel::app {
 
@@ -83,7 +83,7 @@ void add_variation(world::Scene& scene, const std::string& file) {
           plant::find_shape_factor(setting.key))
         continue;
       plant::PlantFile nothing;
-      apply_plant_overrides(nothing, {setting}, faults);  // says which there are
+      simulation::apply_plant_overrides(nothing, {setting}, faults);  // says which there are
     }
   if (faults.has_errors()) throw InvalidFile(faults);
 }

@@ -1,13 +1,13 @@
-#include "pedicel/app/verbs/dataset_tasks.h"
+#include "app/verbs/dataset_tasks.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "pedicel/app/dataset/data_set_files.h"
-#include "pedicel/app/verbs/cluster.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/core/timer.h"
+#include "app/dataset/data_set_files.h"
+#include "app/verbs/cluster.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/core/timer.h"
 
 namespace pedicel::app {
 
@@ -59,7 +59,7 @@ DataSetResult make_data_set_as_tasks(const DataSetOptions& options, const CLI::A
   // the scene is without what varies: a draw that cannot stand is left out in its own turn.
   world::Scene plain = options.scene;
   plain.vary.clear();
-  { const Simulation simulation(plain, options.simulation); }
+  { const simulation::Simulation simulation(plain, options.simulation); }
   const io::FolderLock lock = take_data_set_folder(options);
   const long before = end_data_set(options).pictures;
   const cluster::Plan plan = plan_of_pictures(options, verb, inputs);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/app/dataset/data_set.h"
-#include "pedicel/cluster/cluster_options.h"
-#include "pedicel/core/files_read.h"
+#include "app/dataset/data_set.h"
+#include "engine/cluster/cluster_options.h"
+#include "engine/core/files_read.h"
 
 namespace CLI {
 class App;

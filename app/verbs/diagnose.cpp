@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/diagnose.h"
+#include "app/verbs/diagnose.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -6,19 +6,19 @@
 #include <limits>
 #include <memory>
 
-#include "pedicel/app/verbs/experiment_run.h"
-#include "pedicel/app/verbs/part_arguments.h"
-#include "pedicel/app/verbs/scene_experiment.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/data/more_trials.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/report/report.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
-#include "pedicel/discrepancy/select/symptom_numbers.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/plant/plant_file.h"
+#include "app/verbs/experiment_run.h"
+#include "app/verbs/part_arguments.h"
+#include "app/verbs/scene_experiment.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/data/more_trials.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/report/report.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/select/symptom_numbers.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::app {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
 
 namespace CLI {
 class App;

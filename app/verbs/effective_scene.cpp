@@ -1,15 +1,15 @@
-#include "pedicel/app/verbs/effective_scene.h"
+#include "app/verbs/effective_scene.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 
-#include "pedicel/app/plants/rod_options.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/yaml_text.h"
-#include "pedicel/world/scene_reader.h"
+#include "app/session/document/document.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/yaml_text.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/simulation/plants/rod_options.h"
 
 namespace pedicel::app {
 
@@ -64,8 +64,8 @@ void write_settings(YamlText& text, const world::Scene& scene) {
   Diagnostics diagnostics;
   cosserat::RodSettings rods;
   coupling::CouplingSettings coupling;
-  apply_rod_settings(scene.rods, rods, diagnostics);
-  apply_coupling_settings(scene.coupling, coupling, diagnostics);
+  simulation::apply_rod_settings(scene.rods, rods, diagnostics);
+  simulation::apply_coupling_settings(scene.coupling, coupling, diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   const bool direct = rods.solver == cosserat::SolverKind::direct;
   const bool bdf2 = rods.integrator == cosserat::Integrator::bdf2;

@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/experiment_run.h"
+#include "app/verbs/experiment_run.h"
 
 #include <unistd.h>
 
@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <thread>
 
-#include "pedicel/app/verbs/cluster.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
-#include "pedicel/io/output_check.h"
-#include "pedicel/io/output_folder.h"
+#include "app/verbs/cluster.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/io/output_check.h"
+#include "engine/io/output_folder.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::app {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/data/experiment.h"
+#include "engine/core/stop.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace CLI {
 class App;

@@ -1,18 +1,18 @@
-#include "pedicel/app/verbs/fit.h"
+#include "app/verbs/fit.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
-#include "pedicel/app/verbs/experiment_run.h"
-#include "pedicel/app/verbs/part_arguments.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/fit/parameter_fit.h"
-#include "pedicel/discrepancy/fit/parameter_request.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/verbs/experiment_run.h"
+#include "app/verbs/part_arguments.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/fit/parameter_fit.h"
+#include "plugins/discrepancy/fit/parameter_request.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/import.h"
+#include "app/verbs/import.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -7,19 +7,19 @@
 #include <iostream>
 #include <memory>
 
-#include "pedicel/app/verbs/import_log.h"
-#include "pedicel/app/verbs/import_words.h"
-#include "pedicel/app/verbs/run_arguments.h"
-#include "pedicel/app/verbs/validate.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/import/experiment_import.h"
-#include "pedicel/discrepancy/import/recording_reader.h"
-#include "pedicel/discrepancy/import/world_frame.h"
-#include "pedicel/io/output_check.h"
-#include "pedicel/io/output_folder.h"
-#include "pedicel/plant/plant_file.h"
+#include "app/verbs/import_log.h"
+#include "app/verbs/import_words.h"
+#include "app/verbs/run_arguments.h"
+#include "app/verbs/validate.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/io/output_check.h"
+#include "engine/io/output_folder.h"
+#include "plugins/discrepancy/import/experiment_import.h"
+#include "plugins/discrepancy/import/recording_reader.h"
+#include "plugins/discrepancy/import/world_frame.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::app {
 

@@ -1,21 +1,21 @@
-#include "pedicel/app/verbs/import_log.h"
+#include "app/verbs/import_log.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
 
-#include "pedicel/app/verbs/validate.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/log_import/log_experiment.h"
-#include "pedicel/discrepancy/log_import/log_proposal.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/output_folder.h"
-#include "pedicel/io/unit_text.h"
-#include "pedicel/mcap/reader.h"
-#include "pedicel/rosbag/reader.h"
+#include "app/verbs/validate.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/output_folder.h"
+#include "engine/io/unit_text.h"
+#include "engine/mcap/reader.h"
+#include "engine/rosbag/reader.h"
+#include "plugins/discrepancy/log_import/log_experiment.h"
+#include "plugins/discrepancy/log_import/log_proposal.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::app {
 

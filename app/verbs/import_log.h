@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/app/verbs/import.h"
+#include "app/verbs/import.h"
 
 namespace pedicel::app {
 

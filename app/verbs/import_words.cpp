@@ -1,11 +1,11 @@
-#include "pedicel/app/verbs/import_words.h"
+#include "app/verbs/import_words.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/number_text.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/number_text.h"
 
 namespace pedicel::app {
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/verbs/import.h"
-#include "pedicel/discrepancy/import/experiment_import.h"
-#include "pedicel/io/unit_text.h"
+#include "app/verbs/import.h"
+#include "engine/io/unit_text.h"
+#include "plugins/discrepancy/import/experiment_import.h"
 
 /// Options of `pedicel import`, and what their words mean. What cannot be meant is a UsageError
 /// that names the option.

@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/lab.h"
+#include "app/verbs/lab.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -6,15 +6,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/app/verbs/diagnose.h"
-#include "pedicel/app/verbs/experiment_run.h"
-#include "pedicel/app/verbs/observe.h"
-#include "pedicel/app/verbs/scene_experiment.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/data/more_trials.h"
-#include "pedicel/discrepancy/report/report.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/verbs/diagnose.h"
+#include "app/verbs/experiment_run.h"
+#include "app/verbs/observe.h"
+#include "app/verbs/scene_experiment.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/data/more_trials.h"
+#include "plugins/discrepancy/report/report.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::app {
 

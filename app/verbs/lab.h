@@ -4,7 +4,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/select/verdict.h"
 
 namespace CLI {
 class App;

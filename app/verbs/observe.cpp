@@ -1,26 +1,26 @@
-#include "pedicel/app/verbs/observe.h"
+#include "app/verbs/observe.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/bench/parallel_worlds.h"
-#include "pedicel/app/plants/plant_overrides.h"
-#include "pedicel/app/run/scene_plants.h"
-#include "pedicel/app/verbs/run_arguments.h"
-#include "pedicel/app/verbs/scene_experiment.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/output_check.h"
-#include "pedicel/io/output_folder.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/plant/effect_reader.h"
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/settings.h"
+#include "app/bench/parallel_worlds.h"
+#include "app/verbs/run_arguments.h"
+#include "app/verbs/scene_experiment.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
+#include "engine/core/stop.h"
+#include "engine/io/output_check.h"
+#include "engine/io/output_folder.h"
+#include "engine/io/yaml.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/settings.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/simulate/simulator.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "plugins/plant/effect_reader.h"
+#include "plugins/simulation/plants/plant_overrides.h"
+#include "plugins/simulation/scene_plants.h"
 
 namespace pedicel::app {
 
@@ -54,11 +54,11 @@ plant::PlantFile scene_plant(const world::ScenePlant& wanted, Diagnostics& diagn
   if (wanted.source == world::ScenePlant::Source::built_in)
     throw UsageError("observe: plant \"" + wanted.name +
                      "\" is built in, expected one that is read from a file");
-  std::optional<plant::PlantFile> plant = read_scene_plant(wanted, diagnostics);
+  std::optional<plant::PlantFile> plant = simulation::read_scene_plant(wanted, diagnostics);
   if (!plant && !diagnostics.has_errors())
     throw UsageError("observe: plant \"" + wanted.name + "\": " + wanted.file.string() +
                      " is not there, expected a plant file or an MTG");
-  if (plant) apply_plant_overrides(*plant, wanted.set, diagnostics);
+  if (plant) simulation::apply_plant_overrides(*plant, wanted.set, diagnostics);
   if (!plant || diagnostics.has_errors()) throw InvalidFile(diagnostics);
   return std::move(*plant);
 }
@@ -88,7 +88,7 @@ void take_plant(const ObserveArguments& a, Experiment& experiment) {
     if (!scene) throw InvalidFile(diagnostics);
     const world::ScenePlant& wanted = plant_of(*scene, a.plant);
     experiment.plant = scene_plant(wanted, diagnostics);
-    experiment.plant_path = source_of(wanted);
+    experiment.plant_path = simulation::source_of(wanted);
   } else {
     throw UsageError("observe " + a.model + ": format is \"" + format +
                      "\", expected pedicel-plant, pedicel-scene or pedicel-experiment");

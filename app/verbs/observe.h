@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace CLI {
 class App;

@@ -1,15 +1,15 @@
-#include "pedicel/app/verbs/param_sweep.h"
+#include "app/verbs/param_sweep.h"
 
 #include <algorithm>
 
-#include "pedicel/app/run/scene_plants.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv_cell.h"
-#include "pedicel/world/settings.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv_cell.h"
+#include "engine/world/settings.h"
+#include "plugins/simulation/scene_plants.h"
 
 namespace pedicel::app {
 
@@ -99,7 +99,7 @@ SceneResult run_param_sweep(const world::Scene& scene, const io::CsvTable& table
                             const RunOptions& options) {
   const std::vector<world::Scene> scenes = scenes_of_rows(scene, table);
   Diagnostics diagnostics;
-  check_settings(scenes, options.simulation, diagnostics);
+  simulation::check_settings(scenes, options.simulation, diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   SceneResult all;
   all.folder = options.out;

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "pedicel/app/report/headless.h"
-#include "pedicel/io/csv.h"
+#include "app/report/headless.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/part_arguments.h"
+#include "app/verbs/part_arguments.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "pedicel/app/verbs/cluster.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/verbs/cluster.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <string>
 
-#include "pedicel/app/verbs/experiment_run.h"
-#include "pedicel/cluster/cluster_options.h"
-#include "pedicel/core/files_read.h"
-#include "pedicel/discrepancy/fit/fit_parts.h"
+#include "app/verbs/experiment_run.h"
+#include "engine/cluster/cluster_options.h"
+#include "engine/core/files_read.h"
+#include "plugins/discrepancy/fit/fit_parts.h"
 
 namespace pedicel::app {
 

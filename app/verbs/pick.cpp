@@ -1,17 +1,17 @@
-#include "pedicel/app/verbs/pick.h"
+#include "app/verbs/pick.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 
-#include "pedicel/app/verbs/import_words.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/discrepancy/pick/pick_labels.h"
-#include "pedicel/discrepancy/pick/pick_report.h"
-#include "pedicel/discrepancy/pick/pick_text.h"
-#include "pedicel/io/output_kind.h"
+#include "app/verbs/import_words.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/io/output_kind.h"
+#include "plugins/discrepancy/pick/pick_labels.h"
+#include "plugins/discrepancy/pick/pick_report.h"
+#include "plugins/discrepancy/pick/pick_text.h"
 
 namespace pedicel::app {
 

@@ -1,15 +1,15 @@
-#include "pedicel/app/verbs/ros_arguments.h"
+#include "app/verbs/ros_arguments.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/output_kind.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/io/output_kind.h"
 #ifdef PEDICEL_ROS
-#include "pedicel/app/ros/interfaces.h"
-#include "pedicel/app/ros/ros_name.h"
-#include "pedicel/app/ros/ros_server.h"
+#include "app/ros/interfaces.h"
+#include "app/ros/ros_name.h"
+#include "app/ros/ros_server.h"
 #endif
 
 namespace pedicel::app {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/app/verbs/run_arguments.h"
+#include "app/verbs/run_arguments.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/run_arguments.h"
+#include "app/verbs/run_arguments.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -6,21 +6,21 @@
 #include <cstdio>
 #include <iostream>
 
-#include "pedicel/app/gltf/gltf_film.h"
-#include "pedicel/app/h5/h5_log.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/plant_import.h"
-#include "pedicel/app/topics/mcap_log.h"
-#include "pedicel/app/verbs/cluster.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/asset_folder.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/bounds.h"
-#include "pedicel/io/output_check.h"
-#include "pedicel/io/output_kind.h"
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/settings.h"
+#include "app/gltf/gltf_film.h"
+#include "app/h5/h5_log.h"
+#include "app/session/document/document.h"
+#include "app/session/document/plant_import.h"
+#include "app/topics/mcap_log.h"
+#include "app/verbs/cluster.h"
+#include "engine/core/check.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/asset_folder.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/bounds.h"
+#include "engine/io/output_check.h"
+#include "engine/io/output_kind.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::app {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/report/headless.h"
+#include "app/report/headless.h"
 
 namespace CLI {
 class App;

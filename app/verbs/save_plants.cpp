@@ -1,11 +1,11 @@
-#include "pedicel/app/verbs/save_plants.h"
+#include "app/verbs/save_plants.h"
 
-#include "pedicel/app/run/scene_plants.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/world/scene_writer.h"
-#include "pedicel/world/settings.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_writer.h"
+#include "engine/world/settings.h"
+#include "plugins/plant/plant_file.h"
+#include "plugins/simulation/scene_plants.h"
 
 namespace pedicel::app {
 
@@ -17,7 +17,7 @@ void expect_new(const std::filesystem::path& path) {
 }
 
 // Leaf templates that lie beside a plant come along; shipped ones are found from everywhere.
-void take_templates(const PlacedPlantFile& plant, const std::filesystem::path& folder) {
+void take_templates(const simulation::PlacedPlantFile& plant, const std::filesystem::path& folder) {
   for (const plant::PlantLeaf& leaf : plant.file.leaves) {
     const std::filesystem::path name = leaf.leaf_template + ".leaf.yaml";
     const std::filesystem::path to = folder / name;
@@ -28,14 +28,15 @@ void take_templates(const PlacedPlantFile& plant, const std::filesystem::path& f
 
 }  // namespace
 
-std::string save_plants(const world::Scene& scene, const SimulationOptions& options,
+std::string save_plants(const world::Scene& scene, const simulation::SimulationOptions& options,
                         const std::filesystem::path& folder) {
   // They name an entry, and here each of its plants becomes an entry.
   if (!scene.effects.empty())
     throw UsageError("--save-plants: the scene has effects, expected a scene without");
   const world::Scene drawn = scene.vary.empty() ? scene : world::drawn_scene(scene);
   Diagnostics diagnostics;
-  const std::vector<PlacedPlantFile> plants = plant_files(drawn, options, diagnostics);
+  const std::vector<simulation::PlacedPlantFile> plants =
+      simulation::plant_files(drawn, options, diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
 
   // After the scene's file, since a scene's own name may hold any character.
@@ -44,7 +45,7 @@ std::string save_plants(const world::Scene& scene, const SimulationOptions& opti
       folder / (name.ends_with(".scene.yaml") ? name : "plants.scene.yaml");
   world::Scene apart = drawn;
   apart.plants.clear();
-  for (const PlacedPlantFile& one : plants) {
+  for (const simulation::PlacedPlantFile& one : plants) {
     world::ScenePlant& entry = apart.plants.emplace_back();
     entry.name = one.file.name;
     entry.file = folder / (one.file.name + ".plant.yaml");

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/world/scene.h"
+#include "engine/world/scene.h"
+#include "plugins/simulation/simulation_options.h"
 
 namespace pedicel::app {
 
@@ -13,7 +13,7 @@ namespace pedicel::app {
 /// leaf templates that lay beside a plant. The scene runs to the same state hash. Returns a
 /// sentence that says what was written. Throws InvalidFile for a faulty scene, and UsageError where
 /// the folder has such files already, or effects of the scene name a grid.
-std::string save_plants(const world::Scene& scene, const SimulationOptions& options,
+std::string save_plants(const world::Scene& scene, const simulation::SimulationOptions& options,
                         const std::filesystem::path& folder);
 
 }  // namespace pedicel::app

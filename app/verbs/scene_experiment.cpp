@@ -1,23 +1,23 @@
-#include "pedicel/app/verbs/scene_experiment.h"
+#include "app/verbs/scene_experiment.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "pedicel/app/bench/parallel_worlds.h"
-#include "pedicel/app/verbs/lab.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/report/scene_diagnosis_files.h"
-#include "pedicel/discrepancy/report/scene_report.h"
-#include "pedicel/discrepancy/scene/more_scene_trials.h"
-#include "pedicel/discrepancy/scene/scene_data.h"
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/discrepancy/scene/scene_observe.h"
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/output_check.h"
-#include "pedicel/io/output_folder.h"
-#include "pedicel/io/yaml.h"
+#include "app/bench/parallel_worlds.h"
+#include "app/verbs/lab.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/output_check.h"
+#include "engine/io/output_folder.h"
+#include "engine/io/yaml.h"
+#include "plugins/discrepancy/report/scene_diagnosis_files.h"
+#include "plugins/discrepancy/report/scene_report.h"
+#include "plugins/discrepancy/scene/more_scene_trials.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene_predict/scene_observe.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 
 namespace pedicel::app {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/verbs/experiment_run.h"
-#include "pedicel/app/verbs/observe.h"
-#include "pedicel/core/diagnostics.h"
+#include "app/verbs/experiment_run.h"
+#include "app/verbs/observe.h"
+#include "engine/core/diagnostics.h"
 
 /// The verbs for experiments whose model is a scene: a robot at plants.
 namespace pedicel::app {

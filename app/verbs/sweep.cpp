@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/sweep.h"
+#include "app/verbs/sweep.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -6,18 +6,18 @@
 #include <memory>
 #include <optional>
 
-#include "pedicel/app/report/sweep.h"
-#include "pedicel/app/run/scene_plants.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/app/verbs/cluster.h"
-#include "pedicel/app/verbs/effective_scene.h"
-#include "pedicel/app/verbs/param_sweep.h"
-#include "pedicel/app/verbs/run_arguments.h"
-#include "pedicel/app/verbs/sweep_tasks.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/files_read.h"
-#include "pedicel/world/settings.h"
+#include "app/report/sweep.h"
+#include "app/verbs/cluster.h"
+#include "app/verbs/effective_scene.h"
+#include "app/verbs/param_sweep.h"
+#include "app/verbs/run_arguments.h"
+#include "app/verbs/sweep_tasks.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/files_read.h"
+#include "engine/core/verbosity.h"
+#include "engine/world/settings.h"
+#include "plugins/simulation/scene_plants.h"
 
 namespace pedicel::app {
 
@@ -57,7 +57,7 @@ std::optional<world::SceneSweep> take_sweep(std::vector<std::string>& set) {
 /// An impossible key or value is found before the first run.
 void check_all(const std::vector<world::Scene>& scenes, const RunOptions& options) {
   Diagnostics diagnostics;
-  check_settings(scenes, options.simulation, diagnostics);
+  simulation::check_settings(scenes, options.simulation, diagnostics);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
 }
 

@@ -1,16 +1,16 @@
-#include "pedicel/app/verbs/sweep_tasks.h"
+#include "app/verbs/sweep_tasks.h"
 
 #include <CLI/CLI.hpp>
 
-#include "pedicel/app/report/result_file.h"
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/app/run/verbosity.h"
-#include "pedicel/app/verbs/cluster.h"
-#include "pedicel/app/verbs/param_sweep.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/report/result_file.h"
+#include "app/verbs/cluster.h"
+#include "app/verbs/param_sweep.h"
+#include "engine/core/check.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/core/verbosity.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -143,7 +143,7 @@ SceneResult run_as_tasks(const SweepCases& cases, const CLI::App& verb,
                          const cluster::ClusterOptions& options, const FilesRead& inputs,
                          bool quiet) {
   // Built once: what cannot be built is found before any task, and its files come to the list.
-  { const Simulation simulation(cases.scene_of(0), cases.options().simulation); }
+  { const simulation::Simulation simulation(cases.scene_of(0), cases.options().simulation); }
   const CLI::Option* set = verb.get_option("--instruction-set");
   const cluster::Plan plan =
       plan_of(cases, verb, inputs, set->count() > 0 ? set->results().front() : "");

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "pedicel/app/report/sweep.h"
-#include "pedicel/cluster/cluster_options.h"
-#include "pedicel/core/files_read.h"
-#include "pedicel/io/csv.h"
+#include "app/report/sweep.h"
+#include "engine/cluster/cluster_options.h"
+#include "engine/core/files_read.h"
+#include "engine/io/csv.h"
 
 namespace CLI {
 class App;

@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/transfer.h"
+#include "app/verbs/transfer.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -6,12 +6,12 @@
 #include <iostream>
 #include <memory>
 
-#include "pedicel/app/verbs/experiment_run.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/procedure/transfer.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/plant/plant_file.h"
+#include "app/verbs/experiment_run.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/procedure/transfer.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::app {
 

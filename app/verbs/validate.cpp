@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/validate.h"
+#include "app/verbs/validate.h"
 
 #include <algorithm>
 #include <array>
@@ -6,24 +6,24 @@
 #include <filesystem>
 #include <optional>
 
-#include "pedicel/app/run/large_plant.h"
-#include "pedicel/app/run/mesh_fields.h"
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/verbs/scene_experiment.h"
-#include "pedicel/app/verbs/validate_tables.h"
-#include "pedicel/discrepancy/admission/admission.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
-#include "pedicel/geometry/mesh.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/plant/leaf_template.h"
-#include "pedicel/plant/plant_builder.h"
-#include "pedicel/skeleton/helios_reader.h"
-#include "pedicel/skeleton/plant_source.h"
-#include "pedicel/urdf/urdf_reader.h"
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/variation.h"
+#include "app/session/document/document.h"
+#include "app/verbs/scene_experiment.h"
+#include "app/verbs/validate_tables.h"
+#include "engine/geometry/mesh.h"
+#include "engine/io/text_file.h"
+#include "engine/io/yaml.h"
+#include "engine/urdf/urdf_reader.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/variation.h"
+#include "plugins/discrepancy/admission/admission.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/plant/leaf_template.h"
+#include "plugins/plant/plant_builder.h"
+#include "plugins/simulation/large_plant.h"
+#include "plugins/simulation/mesh_fields.h"
+#include "plugins/simulation/simulation.h"
+#include "plugins/skeleton/helios_reader.h"
+#include "plugins/skeleton/plant_source.h"
 
 namespace pedicel::app {
 
@@ -51,7 +51,7 @@ std::string check_built(const std::optional<plant::PlantFile>& file,
   options.leaf_folders = {path.parent_path(), path.parent_path() / "../assets/leaves"};
   for (const std::filesystem::path& folder : asset_leaf_folders())
     options.leaf_folders.push_back(folder);
-  say_if_large(*file);
+  simulation::say_if_large(*file);
   const auto built = plant::build_plant(*file, options, diagnostics);
   return built ? plant::residual_text(*built) : "";
 }
@@ -102,13 +102,13 @@ std::string check_scene(const std::filesystem::path& path, const Options& given,
                         Diagnostics& diagnostics) {
   const std::optional<world::Scene> scene = world::read_scene(path, diagnostics);
   if (!scene) return {};
-  SimulationOptions options;
+  simulation::SimulationOptions options;
   options.packages = given.packages;
   options.leaf_folders = asset_leaf_folders();
   // Builds everything that the scene names, and runs none of it.
-  const Simulation simulation(*scene, options);
+  const simulation::Simulation simulation(*scene, options);
   for (const std::string& note : simulation.notes()) warn(note, diagnostics);
-  return worst_residual(simulation.plants());
+  return simulation::worst_residual(simulation.plants());
 }
 
 // The plant is built, too.
@@ -133,7 +133,7 @@ std::string check_urdf(const std::filesystem::path& path, const Options& given,
   for (const std::string& package : given.packages) paths.add(package);
   const auto robot = robot::read_urdf(path, paths, diagnostics);
   if (!robot) return {};
-  for (std::string& warning : large_mesh_warnings(*robot))
+  for (std::string& warning : simulation::large_mesh_warnings(*robot))
     diagnostics.warning({path.string()}, std::move(warning));
   return {};
 }

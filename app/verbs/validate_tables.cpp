@@ -1,14 +1,14 @@
-#include "pedicel/app/verbs/validate_tables.h"
+#include "app/verbs/validate_tables.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "pedicel/app/session/commands/command.h"
-#include "pedicel/discrepancy/data/experiment_tables.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/skeleton/skeleton_columns.h"
+#include "app/session/commands/command.h"
+#include "engine/io/csv.h"
+#include "engine/io/table_text.h"
+#include "engine/io/text_file.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
+#include "plugins/skeleton/skeleton_columns.h"
 
 namespace pedicel::app {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/view/list_key.h"
+#include "app/view/list_key.h"
 
 #include <bit>
 

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "pedicel/render/camera.h"
-#include "pedicel/render/draw_list.h"
+#include "engine/render/camera.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::app {
 

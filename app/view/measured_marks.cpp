@@ -1,15 +1,16 @@
-#include "pedicel/app/view/measured_marks.h"
+#include "app/view/measured_marks.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/draw/drawing.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/plant/plant_edit.h"
-#include "pedicel/plant/plant_graph.h"
-#include "pedicel/plant/plant_pick.h"
-#include "pedicel/render/colormap.h"
+#include "app/draw/drawing.h"
+#include "app/session/measured/measured_instant.h"
+#include "app/session/session.h"
+#include "app/session/session_measured.h"
+#include "engine/render/colormap.h"
+#include "plugins/plant/plant_edit.h"
+#include "plugins/plant/plant_graph.h"
+#include "plugins/plant/plant_pick.h"
 
 namespace pedicel::app {
 

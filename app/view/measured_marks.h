@@ -3,14 +3,15 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/app/session/measured/measured_instant.h"
-#include "pedicel/app/ui/view_state.h"
-#include "pedicel/render/draw_list.h"
+#include "app/session/live/snapshot.h"
+#include "app/ui/view_state.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::app {
 
+class MeasuredData;
 class Session;
+struct MeasuredInstant;
 
 /// The colour that stands for a model wherever it is shown.
 render::Colour model_colour(int model);

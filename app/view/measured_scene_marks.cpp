@@ -1,9 +1,10 @@
-#include "pedicel/app/view/measured_scene_marks.h"
+#include "app/view/measured_scene_marks.h"
 
-#include "pedicel/app/draw/drawing.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/app/view/measured_marks.h"
+#include "app/draw/drawing.h"
+#include "app/session/measured/scene_instant.h"
+#include "app/session/session.h"
+#include "app/session/session_measured.h"
+#include "app/view/measured_marks.h"
 
 namespace pedicel::app {
 

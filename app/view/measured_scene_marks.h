@@ -1,12 +1,13 @@
 #pragma once
 
-#include "pedicel/app/session/measured/scene_instant.h"
-#include "pedicel/app/ui/view_state.h"
-#include "pedicel/render/draw_list.h"
+#include "app/ui/view_state.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::app {
 
+class MeasuredScene;
 class Session;
+struct SceneInstant;
 
 /// A measured run of a robot in the picture of the scene: the robot as its joints were measured,
 /// plants as a model has them, markers and their errors.

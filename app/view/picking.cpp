@@ -1,4 +1,4 @@
-#include "pedicel/app/view/picking.h"
+#include "app/view/picking.h"
 
 #include <algorithm>
 #include <array>
@@ -72,7 +72,8 @@ void pick_ties(Selection& best, const Snapshot& snapshot, const geometry::Ray& r
 void pick_blades(Selection& best, const Snapshot& snapshot, int p, const geometry::Ray& ray) {
   if (static_cast<std::size_t>(p) >= snapshot.assets->plants.size()) return;
   const PlantSnapshot& plant = snapshot.plants[static_cast<std::size_t>(p)];
-  for (const Blade& blade : snapshot.assets->plants[static_cast<std::size_t>(p)].blades) {
+  for (const simulation::Blade& blade :
+       snapshot.assets->plants[static_cast<std::size_t>(p)].blades) {
     std::array<Vec3, 3> corner;
     bool whole = true;
     for (std::size_t k = 0; k < 3; ++k) {

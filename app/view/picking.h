@@ -2,12 +2,12 @@
 
 #include <optional>
 
-#include "pedicel/app/session/live/draw_surface.h"
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/app/ui/view_state.h"
-#include "pedicel/app/view/rigid_shapes.h"
-#include "pedicel/geometry/ray.h"
-#include "pedicel/render/camera.h"
+#include "app/session/live/draw_surface.h"
+#include "app/session/live/snapshot.h"
+#include "app/ui/view_state.h"
+#include "app/view/rigid_shapes.h"
+#include "engine/geometry/ray.h"
+#include "engine/render/camera.h"
 
 namespace pedicel::app {
 

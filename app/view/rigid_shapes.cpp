@@ -1,6 +1,6 @@
-#include "pedicel/app/view/rigid_shapes.h"
+#include "app/view/rigid_shapes.h"
 
-#include "pedicel/app/draw/drawing.h"
+#include "app/draw/drawing.h"
 
 namespace pedicel::app {
 
@@ -12,7 +12,7 @@ RigidShapes::Shape with_box(render::DrawList list) {
   return {std::move(list), box};
 }
 
-render::DrawList look_of(const BodyInfo& info, const SceneAssets& assets) {
+render::DrawList look_of(const BodyInfo& info, const simulation::SceneAssets& assets) {
   if (info.fruit < 0 || info.description.parts.empty()) return body_shape(info.description);
   const plant::Look look = assets.plants[static_cast<std::size_t>(info.plant)].look;
   return fruit_shape(FruitLook::of(look), info.fruit, info.description.parts.front().radius,

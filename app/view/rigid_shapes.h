@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/render/draw_list.h"
+#include "app/session/live/snapshot.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::app {
 
@@ -22,7 +22,7 @@ class RigidShapes {
   const std::vector<Shape>& bodies() const { return bodies_; }  ///< as Snapshot::bodies
 
  private:
-  std::shared_ptr<const SceneAssets> assets_;
+  std::shared_ptr<const simulation::SceneAssets> assets_;
   std::vector<Shape> links_, bodies_;
   std::vector<std::shared_ptr<const BodyInfo>> infos_;
 };

@@ -1,10 +1,10 @@
-#include "pedicel/app/view/scene_canvas.h"
+#include "app/view/scene_canvas.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "pedicel/app/view/list_key.h"
+#include "app/view/list_key.h"
 
 namespace pedicel::app {
 

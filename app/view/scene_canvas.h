@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "pedicel/render/renderer.h"
+#include "engine/render/renderer.h"
 
 namespace pedicel::app {
 

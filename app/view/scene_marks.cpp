@@ -1,9 +1,9 @@
-#include "pedicel/app/view/scene_marks.h"
+#include "app/view/scene_marks.h"
 
 #include <algorithm>
 #include <array>
 
-#include "pedicel/app/session/live/organ_place.h"
+#include "app/session/live/organ_place.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/app/ui/view_state.h"
-#include "pedicel/render/draw_list.h"
+#include "app/session/live/snapshot.h"
+#include "app/ui/view_state.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::app {
 

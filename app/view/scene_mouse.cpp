@@ -1,8 +1,9 @@
-#include "pedicel/app/view/scene_mouse.h"
+#include "app/view/scene_mouse.h"
 
 #include <cmath>
 
-#include "pedicel/app/ui/selection_follow.h"
+#include "app/session/live/pull.h"
+#include "app/ui/selection_follow.h"
 
 namespace pedicel::app {
 

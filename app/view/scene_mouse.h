@@ -2,9 +2,9 @@
 
 #include <imgui.h>
 
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/view/picking.h"
-#include "pedicel/app/view/view_camera.h"
+#include "app/ui/ui.h"
+#include "app/view/picking.h"
+#include "app/view/view_camera.h"
 
 namespace pedicel::app {
 

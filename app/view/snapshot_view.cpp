@@ -1,11 +1,11 @@
-#include "pedicel/app/view/snapshot_view.h"
+#include "app/view/snapshot_view.h"
 
 #include <algorithm>
 
-#include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/app/ui/selection_follow.h"
-#include "pedicel/app/view/scene_marks.h"
-#include "pedicel/render/colormap.h"
+#include "app/session/live/robot_goal.h"
+#include "app/ui/selection_follow.h"
+#include "app/view/scene_marks.h"
+#include "engine/render/colormap.h"
 
 namespace pedicel::app {
 
@@ -72,7 +72,7 @@ void SnapshotView::follow(const Snapshot& snapshot) {
   plants_.resize(snapshot.plants.size());
   for (std::size_t p = 0; p < plants_.size(); ++p) {
     if (plants_[p].model == snapshot.plants[p].model) continue;
-    const PlantInfo& info = snapshot.assets->plants[p];
+    const simulation::PlantInfo& info = snapshot.assets->plants[p];
     plants_[p] = {snapshot.plants[p].model, snapshot.assets,
                   std::make_unique<PlantDrawing>(*snapshot.plants[p].model, info.blades,
                                                  PlantLook::of(info.look))};
@@ -94,7 +94,8 @@ std::vector<Colour> SnapshotView::colours(const Snapshot& snapshot, int plant,
   if (view.colours == ColourMap::strain) {
     scale = view.strain_scale;
     for (int e = 0; e < model.size(); ++e)
-      values.push_back(shown.state.alive[e] ? surface_strain(model, shown.state, e) : 0.0);
+      values.push_back(shown.state.alive[e] ? simulation::surface_strain(model, shown.state, e)
+                                            : 0.0);
   }
   if (view.colours == ColourMap::residual && plant == view.residual_plant &&
       static_cast<int>(view.residual.size()) == model.size()) {

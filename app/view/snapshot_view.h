@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/app/draw/plant_drawing.h"
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/app/ui/view_state.h"
-#include "pedicel/app/view/rigid_shapes.h"
+#include "app/draw/plant_drawing.h"
+#include "app/session/live/snapshot.h"
+#include "app/ui/view_state.h"
+#include "app/view/rigid_shapes.h"
 
 namespace pedicel::app {
 
@@ -22,7 +22,7 @@ class SnapshotView {
  private:
   struct Plant {
     std::shared_ptr<const cosserat::RodModel> model;
-    std::shared_ptr<const SceneAssets> assets;
+    std::shared_ptr<const simulation::SceneAssets> assets;
     std::unique_ptr<PlantDrawing> drawing;
   };
   void follow(const Snapshot& snapshot);

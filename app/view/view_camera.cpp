@@ -1,4 +1,4 @@
-#include "pedicel/app/view/view_camera.h"
+#include "app/view/view_camera.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/render/camera.h"
+#include "engine/render/camera.h"
 
 namespace pedicel::app {
 

@@ -1,12 +1,12 @@
-#include "pedicel/app/window/desktop.h"
+#include "app/window/desktop.h"
 
 #include <imgui.h>
 
 #include <chrono>
 
-#include "pedicel/app/panels/time_line.h"
-#include "pedicel/app/ui/selection_follow.h"
-#include "pedicel/app/ui/theme.h"
+#include "app/panels/time_line.h"
+#include "app/ui/selection_follow.h"
+#include "app/ui/theme.h"
 
 namespace pedicel::app {
 

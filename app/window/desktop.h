@@ -5,10 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/app/window/desktop_actions.h"
-#include "pedicel/app/window/fonts.h"
-#include "pedicel/app/window/gui_input.h"
-#include "pedicel/app/window/shown_document.h"
+#include "app/platform/platform.h"
+#include "app/window/desktop_actions.h"
+#include "app/window/fonts.h"
+#include "app/window/gui_input.h"
+#include "app/window/scene_pane.h"
+#include "app/window/shown_document.h"
+#include "app/window/window_film.h"
+#include "app/window/window_painter.h"
 
 struct ImGuiContext;
 

@@ -1,16 +1,26 @@
-#include "pedicel/app/window/desktop_actions.h"
+#include "app/window/desktop_actions.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "pedicel/app/draw/pictures.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_robot.h"
-#include "pedicel/app/ui/free_file_name.h"
-#include "pedicel/app/window/gui_input.h"
+#include "app/draw/pictures.h"
+#include "app/editors/point_editor.h"
+#include "app/editors/thing_editor.h"
+#include "app/platform/platform.h"
+#include "app/session/session_files.h"
+#include "app/session/session_robot.h"
+#include "app/tools/draw_tool.h"
+#include "app/ui/free_file_name.h"
+#include "app/ui/ui.h"
+#include "app/window/framing.h"
+#include "app/window/gui_input.h"
+#include "app/window/scene_pane.h"
+#include "app/window/window_film.h"
+#include "app/window/window_painter.h"
 
 namespace pedicel::app {
 
@@ -51,6 +61,25 @@ bool acts_over_dialogs(Action action) {
     default:
       return false;
   }
+}
+
+/// Neighbours in the tree of organs: the organ that carries one, or the first that grows from it.
+int parent_element(const cosserat::RodModel& model, int element) {
+  const int organ = model.elements[static_cast<std::size_t>(element)].organ;
+  for (int e = element; e >= 0; e = model.elements[static_cast<std::size_t>(e)].parent)
+    if (model.elements[static_cast<std::size_t>(e)].organ != organ) return e;
+  return element;
+}
+
+int child_element(const cosserat::RodModel& model, int element) {
+  const int organ = model.elements[static_cast<std::size_t>(element)].organ;
+  for (int e = 0; e < model.size(); ++e) {
+    const int parent = model.elements[static_cast<std::size_t>(e)].parent;
+    if (parent >= 0 && model.elements[static_cast<std::size_t>(parent)].organ == organ &&
+        model.elements[static_cast<std::size_t>(e)].organ != organ)
+      return e;
+  }
+  return element;
 }
 
 }  // namespace
@@ -160,6 +189,127 @@ void DesktopActions::take_screenshot() {
     ui_.say("picture in " + std::filesystem::absolute(path).string());
   } catch (const render::OutputError& error) {
     ui_.say(error.what());
+  }
+}
+
+void DesktopActions::perform_edit(Action action) {
+  const auto walk = [&](auto neighbour) {
+    if (ui_.selection.kind != Selection::Kind::element) return;
+    const auto& model = *ui_.snapshot->plants[static_cast<std::size_t>(ui_.selection.plant)].model;
+    ui_.selection.element = neighbour(model, ui_.selection.element);
+    ui_.selection.to_tip = false;
+  };
+  switch (action) {
+    case Action::undo:
+      ui_.report(ui_.session.undo());
+      break;
+    case Action::redo:
+      ui_.report(ui_.session.redo());
+      break;
+    case Action::draw_mode:
+      ui_.draw.on = !ui_.draw.on;
+      if (ui_.draw.on) ui_.show_panel = "Draw";
+      break;
+    case Action::point_kind:
+      change_point_kind(ui_);
+      break;
+    case Action::insert_point:
+      insert_point(ui_);
+      break;
+    case Action::smooth:
+      smooth_points(ui_);
+      break;
+    case Action::select_child:
+      if (!scene_.draw_tool().thicken(1.0)) walk(child_element);
+      break;
+    case Action::select_parent:
+      if (!scene_.draw_tool().thicken(-1.0)) walk(parent_element);
+      break;
+    case Action::duplicate:
+      duplicate_thing(ui_);
+      break;
+    case Action::remove:
+      if (!remove_thing(ui_)) scene_.draw_tool().remove_selected(ui_);
+      break;
+    case Action::accept:
+      break;
+    case Action::cancel:
+      if (GImGui->OpenPopupStack.Size > 0)
+        ImGui::ClosePopupToLevel(0, false);  // a list, a menu
+      else if (ui_.dialog != Dialog::none)
+        ui_.dialog = Dialog::none;
+      else if (scene_.draw_tool().cancel(ui_))
+        break;
+      else if (ui_.draw.on)
+        ui_.draw.on = false;
+      else
+        ui_.selection = {};
+      break;
+    default:
+      break;
+  }
+}
+
+void DesktopActions::perform_view(Action action) {
+  Preferences& p = ui_.preferences;
+  const int cameras =
+      ui_.snapshot->assets ? static_cast<int>(ui_.snapshot->assets->scene.cameras.size()) : 0;
+  switch (action) {
+    case Action::frame_all:
+      ui_.frame_box = scene_.bounds();
+      break;
+    case Action::frame_selection: {
+      const Eigen::AlignedBox3d box = frame_of(ui_, scene_.shapes());
+      ui_.frame_box = box.isEmpty() ? scene_.bounds() : box;
+      break;
+    }
+    case Action::previous_camera:
+      if (cameras) scene_.use_camera((std::max(ui_.view.camera, 0) + cameras - 1) % cameras);
+      break;
+    case Action::next_camera:
+      if (cameras) scene_.use_camera((ui_.view.camera + 1) % cameras);
+      break;
+    case Action::panels: {
+      const bool any = p.show_left || p.show_right || p.show_bottom;
+      p.show_left = p.show_right = !any;
+      p.show_bottom = false;
+      break;
+    }
+    case Action::rods:
+      ui_.view.rods = !ui_.view.rods;
+      break;
+    case Action::contacts:
+      ui_.view.contacts = !ui_.view.contacts;
+      break;
+    case Action::frames:
+      ui_.view.frames = !ui_.view.frames;
+      break;
+    case Action::tool_handles:
+      ui_.view.tool_handles = !ui_.view.tool_handles;
+      break;
+    case Action::help:
+      ui_.dialog = ui_.dialog == Dialog::help ? Dialog::none : Dialog::help;
+      break;
+    case Action::info:
+      ui_.dialog = ui_.dialog == Dialog::info ? Dialog::none : Dialog::info;
+      break;
+    case Action::profiler:
+      ui_.show_panel = "Profiler";
+      break;
+    case Action::plots:
+      ui_.show_panel = "Plots";
+      break;
+    case Action::full_screen:
+      platform_.set_full_screen(full_screen_ = !full_screen_);
+      break;
+    case Action::larger_text:
+      p.font_scale = std::min(2.0, 1.1 * p.font_scale);
+      break;
+    case Action::smaller_text:
+      p.font_scale = std::max(0.7, p.font_scale / 1.1);
+      break;
+    default:
+      break;
   }
 }
 

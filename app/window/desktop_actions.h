@@ -1,11 +1,14 @@
 #pragma once
 
-#include "pedicel/app/platform/platform.h"
-#include "pedicel/app/window/scene_pane.h"
-#include "pedicel/app/window/window_film.h"
-#include "pedicel/app/window/window_painter.h"
+#include "app/ui/bindings.h"
 
 namespace pedicel::app {
+
+class Platform;
+class ScenePane;
+class WindowFilm;
+class WindowPainter;
+struct Ui;
 
 /// What keys and buttons ask the window for.
 class DesktopActions {

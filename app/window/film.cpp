@@ -1,8 +1,8 @@
-#include "pedicel/app/window/film.h"
+#include "app/window/film.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/render/offscreen.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/render/offscreen.h"
 
 namespace pedicel::app {
 

@@ -3,9 +3,9 @@
 #include <functional>
 #include <memory>
 
-#include "pedicel/app/platform/platform.h"
-#include "pedicel/app/session/film.h"
-#include "pedicel/app/window/desktop.h"
+#include "app/platform/platform.h"
+#include "app/session/film.h"
+#include "app/window/desktop.h"
 
 namespace pedicel::app {
 

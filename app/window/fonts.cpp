@@ -1,4 +1,4 @@
-#include "pedicel/app/window/fonts.h"
+#include "app/window/fonts.h"
 
 #include <imgui.h>
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/window/framing.h"
+#include "app/window/framing.h"
 
 #include <algorithm>
 
-#include "pedicel/app/editors/stem_editor.h"
-#include "pedicel/app/tools/drawn_shape.h"
-#include "pedicel/app/view/snapshot_view.h"
-#include "pedicel/plant/point_kind.h"
+#include "app/editors/stem_editor.h"
+#include "app/tools/drawn_shape.h"
+#include "app/view/snapshot_view.h"
+#include "plugins/plant/point_kind.h"
 
 namespace pedicel::app {
 

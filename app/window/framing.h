@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/view/rigid_shapes.h"
+#include "app/ui/ui.h"
+#include "app/view/rigid_shapes.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/window/gui_input.h"
+#include "app/window/gui_input.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>

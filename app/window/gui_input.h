@@ -3,7 +3,7 @@
 #include <deque>
 #include <vector>
 
-#include "pedicel/app/platform/platform.h"
+#include "app/platform/platform.h"
 
 namespace pedicel::app {
 

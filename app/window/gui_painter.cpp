@@ -1,4 +1,4 @@
-#include "pedicel/app/window/gui_painter.h"
+#include "app/window/gui_painter.h"
 
 #include <imgui.h>
 

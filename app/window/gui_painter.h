@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pedicel/render/gl_functions.h"
+#include "engine/render/gl_functions.h"
 
 struct ImDrawData;
 struct ImDrawCmd;

@@ -1,15 +1,15 @@
-#include "pedicel/app/window/measured_image.h"
+#include "app/window/measured_image.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/session/measured/scene_instant.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/app/view/measured_marks.h"
-#include "pedicel/discrepancy/scene/camera.h"
+#include "app/session/measured/scene_instant.h"
+#include "app/session/session.h"
+#include "app/session/session_measured.h"
+#include "app/view/measured_marks.h"
+#include "plugins/discrepancy/scene/camera.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/view/scene_mouse.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
+#include "app/ui/ui.h"
+#include "app/view/scene_mouse.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/window/open_desktop.h"
+#include "app/window/open_desktop.h"
 
 #include <unistd.h>
 
@@ -7,22 +7,22 @@
 #include <cstdio>
 #include <iostream>
 
-#include "pedicel/app/report/headless.h"
-#include "pedicel/app/report/version.h"
-#include "pedicel/app/session/measured/measured_data.h"
-#include "pedicel/app/session/script.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_films.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/app/session/session_recovery.h"
-#include "pedicel/app/window/desktop.h"
-#include "pedicel/app/window/film.h"
-#include "pedicel/app/window/measured_image.h"
-#include "pedicel/app/window/playback_window.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/asset_folder.h"
-#include "pedicel/world/settings.h"
+#include "app/report/headless.h"
+#include "app/report/version.h"
+#include "app/session/measured/measured_data.h"
+#include "app/session/script.h"
+#include "app/session/session_files.h"
+#include "app/session/session_films.h"
+#include "app/session/session_measured.h"
+#include "app/session/session_recovery.h"
+#include "app/window/desktop.h"
+#include "app/window/film.h"
+#include "app/window/measured_image.h"
+#include "app/window/playback_window.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/io/asset_folder.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::app {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "pedicel/app/verbs/cli.h"
+#include "app/verbs/cli.h"
 
 namespace pedicel::app {
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/window/playback_window.h"
+#include "app/window/playback_window.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cstdint>
 
-#include "pedicel/app/ui/theme.h"
+#include "app/ui/theme.h"
 
 namespace pedicel::app {
 

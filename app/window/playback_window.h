@@ -2,13 +2,13 @@
 
 #include <memory>
 
-#include "pedicel/app/platform/platform.h"
-#include "pedicel/app/playback/log_film.h"
-#include "pedicel/app/view/scene_canvas.h"
-#include "pedicel/app/view/view_camera.h"
-#include "pedicel/app/window/fonts.h"
-#include "pedicel/app/window/gui_input.h"
-#include "pedicel/app/window/window_painter.h"
+#include "app/platform/platform.h"
+#include "app/playback/log_film.h"
+#include "app/view/scene_canvas.h"
+#include "app/view/view_camera.h"
+#include "app/window/fonts.h"
+#include "app/window/gui_input.h"
+#include "app/window/window_painter.h"
 
 namespace pedicel::app {
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/window/scene_labels.h"
+#include "app/window/scene_labels.h"
 
 #include <imgui.h>
 
-#include "pedicel/app/session/live/organ_place.h"
-#include "pedicel/app/tools/draw_tool.h"
-#include "pedicel/app/ui/widgets.h"
-#include "pedicel/app/view/scene_marks.h"
+#include "app/session/live/organ_place.h"
+#include "app/tools/draw_tool.h"
+#include "app/ui/widgets.h"
+#include "app/view/scene_marks.h"
 
 namespace pedicel::app {
 

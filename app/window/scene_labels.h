@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/app/ui/ui.h"
-#include "pedicel/app/view/scene_canvas.h"
-#include "pedicel/app/view/scene_mouse.h"
+#include "app/ui/ui.h"
+#include "app/view/scene_canvas.h"
+#include "app/view/scene_mouse.h"
 
 namespace pedicel::app {
 

@@ -1,15 +1,15 @@
-#include "pedicel/app/window/scene_pane.h"
+#include "app/window/scene_pane.h"
 
 #include <imgui.h>
 
 #include <chrono>
 
-#include "pedicel/app/draw/pictures.h"
-#include "pedicel/app/session/live/organ_place.h"
-#include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/app/tools/draw_tool.h"
-#include "pedicel/app/window/measured_image.h"
-#include "pedicel/app/window/scene_labels.h"
+#include "app/draw/pictures.h"
+#include "app/session/live/organ_place.h"
+#include "app/session/live/robot_goal.h"
+#include "app/tools/draw_tool.h"
+#include "app/window/measured_image.h"
+#include "app/window/scene_labels.h"
 
 namespace pedicel::app {
 

@@ -3,14 +3,14 @@
 #include <memory>
 #include <optional>
 
-#include "pedicel/app/panels/layout.h"
-#include "pedicel/app/session/live/robot_contacts.h"
-#include "pedicel/app/tools/tool_handles.h"
-#include "pedicel/app/view/measured_marks.h"
-#include "pedicel/app/view/measured_scene_marks.h"
-#include "pedicel/app/view/scene_canvas.h"
-#include "pedicel/app/view/scene_mouse.h"
-#include "pedicel/app/view/snapshot_view.h"
+#include "app/panels/layout.h"
+#include "app/session/live/robot_contacts.h"
+#include "app/tools/tool_handles.h"
+#include "app/view/measured_marks.h"
+#include "app/view/measured_scene_marks.h"
+#include "app/view/scene_canvas.h"
+#include "app/view/scene_mouse.h"
+#include "app/view/snapshot_view.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,11 @@
-#include "pedicel/app/window/shown_document.h"
+#include "app/window/shown_document.h"
 
 #include <algorithm>
 
-#include "pedicel/app/session/session_files.h"
+#include "app/platform/platform.h"
+#include "app/session/session_files.h"
+#include "app/ui/ui.h"
+#include "app/window/scene_pane.h"
 
 namespace pedicel::app {
 

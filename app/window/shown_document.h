@@ -4,10 +4,11 @@
 #include <set>
 #include <string>
 
-#include "pedicel/app/platform/platform.h"
-#include "pedicel/app/window/scene_pane.h"
-
 namespace pedicel::app {
+
+class Platform;
+class ScenePane;
+struct Ui;
 
 /// What the window shows of the document that is open: title, first camera, what is new in it.
 class ShownDocument {

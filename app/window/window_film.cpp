@@ -1,13 +1,16 @@
-#include "pedicel/app/window/window_film.h"
+#include "app/window/window_film.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/app/session/session_films.h"
-#include "pedicel/app/ui/free_file_name.h"
-#include "pedicel/app/window/film.h"
+#include "app/session/session_films.h"
+#include "app/ui/free_file_name.h"
+#include "app/ui/ui.h"
+#include "app/window/film.h"
+#include "app/window/scene_pane.h"
+#include "app/window/window_painter.h"
 
 /// Films of the window: what runs goes by simulated time, hands by the clock.
 namespace pedicel::app {

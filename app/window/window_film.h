@@ -2,12 +2,14 @@
 
 #include <memory>
 
-#include "pedicel/app/session/film.h"
-#include "pedicel/app/window/scene_pane.h"
-#include "pedicel/app/window/window_painter.h"
-#include "pedicel/render/video.h"
+#include "app/session/film.h"
+#include "engine/render/video.h"
 
 namespace pedicel::app {
+
+class ScenePane;
+class WindowPainter;
+struct Ui;
 
 /// Films of what the window shows. The session's commands begin and end them.
 class WindowFilm : public FilmMaker {

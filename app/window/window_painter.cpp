@@ -1,8 +1,8 @@
-#include "pedicel/app/window/window_painter.h"
+#include "app/window/window_painter.h"
 
 #include <imgui.h>
 
-#include "pedicel/app/ui/theme.h"
+#include "app/ui/theme.h"
 
 namespace pedicel::app {
 

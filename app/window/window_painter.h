@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "pedicel/app/platform/platform.h"
-#include "pedicel/app/window/gui_painter.h"
+#include "app/platform/platform.h"
+#include "app/window/gui_painter.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/cluster/build_id.h"
+#include "engine/cluster/build_id.h"
 
 #include <elf.h>
 #include <link.h>

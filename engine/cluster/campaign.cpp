@@ -1,4 +1,4 @@
-#include "pedicel/cluster/campaign.h"
+#include "engine/cluster/campaign.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -10,12 +10,12 @@
 #include <cstring>
 #include <thread>
 
-#include "pedicel/cluster/case_run.h"
-#include "pedicel/cluster/local_queue.h"
-#include "pedicel/cluster/slurm_queue.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/cluster/case_run.h"
+#include "engine/cluster/local_queue.h"
+#include "engine/cluster/slurm_queue.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::cluster {
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/cluster/cluster_options.h"
-#include "pedicel/cluster/queue.h"
-#include "pedicel/cluster/survey.h"
-#include "pedicel/cluster/task_plan.h"
+#include "engine/cluster/cluster_options.h"
+#include "engine/cluster/queue.h"
+#include "engine/cluster/survey.h"
+#include "engine/cluster/task_plan.h"
 
 namespace pedicel::cluster {
 

@@ -1,4 +1,4 @@
-#include "pedicel/cluster/case_record.h"
+#include "engine/cluster/case_record.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/cluster/task_file.h"
+#include "engine/cluster/task_file.h"
 
 namespace pedicel::cluster {
 

@@ -1,4 +1,4 @@
-#include "pedicel/cluster/case_run.h"
+#include "engine/cluster/case_run.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,11 +10,11 @@
 #include <cstring>
 #include <ctime>
 
-#include "pedicel/cluster/build_id.h"
-#include "pedicel/cluster/process.h"
-#include "pedicel/cluster/sha256.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/cluster/build_id.h"
+#include "engine/cluster/process.h"
+#include "engine/cluster/sha256.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::cluster {
 

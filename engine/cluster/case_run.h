@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/cluster/case_record.h"
-#include "pedicel/cluster/job_list.h"
+#include "engine/cluster/case_record.h"
+#include "engine/cluster/job_list.h"
 
 namespace pedicel::cluster {
 

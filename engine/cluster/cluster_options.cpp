@@ -1,12 +1,12 @@
-#include "pedicel/cluster/cluster_options.h"
+#include "engine/cluster/cluster_options.h"
 
 #include <wordexp.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "pedicel/cluster/cluster_profile.h"
-#include "pedicel/core/check.h"
+#include "engine/cluster/cluster_profile.h"
+#include "engine/core/check.h"
 
 namespace pedicel::cluster {
 

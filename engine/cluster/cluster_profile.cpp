@@ -1,6 +1,6 @@
-#include "pedicel/cluster/cluster_profile.h"
+#include "engine/cluster/cluster_profile.h"
 
-#include "pedicel/io/yaml.h"
+#include "engine/io/yaml.h"
 
 namespace pedicel::cluster {
 

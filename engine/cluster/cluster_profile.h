@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/cluster/cluster_options.h"
-#include "pedicel/core/diagnostics.h"
+#include "engine/cluster/cluster_options.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::cluster {
 

@@ -1,9 +1,9 @@
-#include "pedicel/cluster/job_list.h"
+#include "engine/cluster/job_list.h"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::cluster {
 

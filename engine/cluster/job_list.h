@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cluster/task_file.h"
+#include "engine/cluster/task_file.h"
 
 namespace pedicel::cluster {
 

@@ -1,4 +1,4 @@
-#include "pedicel/cluster/local_queue.h"
+#include "engine/cluster/local_queue.h"
 
 #include <algorithm>
 #include <thread>

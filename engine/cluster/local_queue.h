@@ -3,10 +3,10 @@
 #include <deque>
 #include <memory>
 
-#include "pedicel/cluster/cluster_options.h"
-#include "pedicel/cluster/job_list.h"
-#include "pedicel/cluster/process.h"
-#include "pedicel/cluster/queue.h"
+#include "engine/cluster/cluster_options.h"
+#include "engine/cluster/job_list.h"
+#include "engine/cluster/process.h"
+#include "engine/cluster/queue.h"
 
 namespace pedicel::cluster {
 

@@ -1,4 +1,4 @@
-#include "pedicel/cluster/process.h"
+#include "engine/cluster/process.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pedicel/core/stop.h"
+#include "engine/core/stop.h"
 
 extern char** environ;
 

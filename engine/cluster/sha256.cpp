@@ -1,4 +1,4 @@
-#include "pedicel/cluster/sha256.h"
+#include "engine/cluster/sha256.h"
 
 #include <sys/types.h>
 // After the types that it uses.
@@ -10,7 +10,7 @@
 #include <fstream>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::cluster {
 

@@ -1,13 +1,13 @@
-#include "pedicel/cluster/slurm_queue.h"
+#include "engine/cluster/slurm_queue.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
-#include "pedicel/cluster/process.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/cluster/process.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::cluster {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cluster/cluster_options.h"
-#include "pedicel/cluster/job_list.h"
-#include "pedicel/cluster/queue.h"
+#include "engine/cluster/cluster_options.h"
+#include "engine/cluster/job_list.h"
+#include "engine/cluster/queue.h"
 
 namespace pedicel::cluster {
 

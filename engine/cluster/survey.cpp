@@ -1,12 +1,12 @@
-#include "pedicel/cluster/survey.h"
+#include "engine/cluster/survey.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
-#include "pedicel/cluster/case_run.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/cluster/case_run.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::cluster {
 

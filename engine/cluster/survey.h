@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cluster/case_record.h"
-#include "pedicel/cluster/job_list.h"
+#include "engine/cluster/case_record.h"
+#include "engine/cluster/job_list.h"
 
 namespace pedicel::cluster {
 

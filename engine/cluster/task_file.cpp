@@ -1,4 +1,4 @@
-#include "pedicel/cluster/task_file.h"
+#include "engine/cluster/task_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -10,8 +10,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/cluster/sha256.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/cluster/sha256.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::cluster {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::cluster {
 

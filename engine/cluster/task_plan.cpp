@@ -1,10 +1,10 @@
-#include "pedicel/cluster/task_plan.h"
+#include "engine/cluster/task_plan.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/cluster/build_id.h"
-#include "pedicel/cluster/sha256.h"
+#include "engine/cluster/build_id.h"
+#include "engine/cluster/sha256.h"
 
 namespace pedicel::cluster {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cluster/task_file.h"
-#include "pedicel/cluster/task_run.h"
+#include "engine/cluster/task_file.h"
+#include "engine/cluster/task_run.h"
 
 namespace pedicel::cluster {
 

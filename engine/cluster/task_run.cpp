@@ -1,15 +1,15 @@
-#include "pedicel/cluster/task_run.h"
+#include "engine/cluster/task_run.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 
-#include "pedicel/cluster/build_id.h"
-#include "pedicel/cluster/case_run.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/cluster/build_id.h"
+#include "engine/cluster/case_run.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::cluster {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/cluster/task_file.h"
+#include "engine/cluster/task_file.h"
 
 namespace pedicel::cluster {
 

@@ -1,4 +1,4 @@
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 #include <utility>
 

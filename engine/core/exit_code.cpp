@@ -1,4 +1,4 @@
-#include "pedicel/core/exit_code.h"
+#include "engine/core/exit_code.h"
 
 namespace pedicel {
 

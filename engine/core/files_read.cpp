@@ -1,10 +1,10 @@
-#include "pedicel/core/files_read.h"
+#include "engine/core/files_read.h"
 
 #include <atomic>
 #include <mutex>
 #include <set>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel {
 

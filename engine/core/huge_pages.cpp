@@ -1,4 +1,4 @@
-#include "pedicel/core/huge_pages.h"
+#include "engine/core/huge_pages.h"
 
 #include <algorithm>
 #include <cstdlib>

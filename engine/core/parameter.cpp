@@ -1,4 +1,4 @@
-#include "pedicel/core/parameter.h"
+#include "engine/core/parameter.h"
 
 #include <array>
 #include <cmath>

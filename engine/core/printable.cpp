@@ -2,8 +2,8 @@
 #include <array>
 #include <cstdint>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/utf8.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/utf8.h"
 
 namespace pedicel {
 

@@ -1,4 +1,4 @@
-#include "pedicel/core/stop.h"
+#include "engine/core/stop.h"
 
 #include <signal.h>
 #include <sys/resource.h>

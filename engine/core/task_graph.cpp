@@ -1,4 +1,4 @@
-#include "pedicel/core/task_graph.h"
+#include "engine/core/task_graph.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel {
 

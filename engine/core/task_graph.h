@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/core/thread_pool.h"
+#include "engine/core/thread_pool.h"
 
 namespace pedicel {
 

@@ -1,8 +1,8 @@
-#include "pedicel/core/thread_pool.h"
+#include "engine/core/thread_pool.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/geometry/mesh.h"
+#include "engine/geometry/mesh.h"
 
 namespace pedicel::geometry {
 

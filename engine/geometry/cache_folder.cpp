@@ -1,4 +1,4 @@
-#include "pedicel/geometry/cache_folder.h"
+#include "engine/geometry/cache_folder.h"
 
 #include <algorithm>
 #include <chrono>

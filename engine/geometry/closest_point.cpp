@@ -1,4 +1,4 @@
-#include "pedicel/geometry/closest_point.h"
+#include "engine/geometry/closest_point.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 /// Closest points between simple things (C. Ericson, Real-Time Collision Detection, 2005, ch. 5).
 /// All are defined for degenerate input (segments of no length, triangles of no area).

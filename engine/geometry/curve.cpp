@@ -1,11 +1,11 @@
-#include "pedicel/geometry/curve.h"
+#include "engine/geometry/curve.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
 
 namespace pedicel::geometry {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::geometry {
 

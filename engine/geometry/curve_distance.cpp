@@ -1,10 +1,10 @@
-#include "pedicel/geometry/curve_distance.h"
+#include "engine/geometry/curve_distance.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "pedicel/geometry/aabb.h"
-#include "pedicel/geometry/closest_point.h"
+#include "engine/geometry/aabb.h"
+#include "engine/geometry/closest_point.h"
 
 namespace pedicel::geometry {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/geometry/curve.h"
+#include "engine/geometry/curve.h"
 
 namespace pedicel::geometry {
 

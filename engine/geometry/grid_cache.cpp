@@ -1,9 +1,9 @@
-#include "pedicel/geometry/grid_cache.h"
+#include "engine/geometry/grid_cache.h"
 
 #include <cstdio>
 
-#include "pedicel/core/state_hash.h"
-#include "pedicel/geometry/grid_file.h"
+#include "engine/core/state_hash.h"
+#include "engine/geometry/grid_file.h"
 
 namespace pedicel::geometry {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/geometry/cache_folder.h"
-#include "pedicel/geometry/grid_distance.h"
+#include "engine/geometry/cache_folder.h"
+#include "engine/geometry/grid_distance.h"
 
 namespace pedicel::geometry {
 

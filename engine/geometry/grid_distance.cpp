@@ -1,13 +1,13 @@
-#include "pedicel/geometry/grid_distance.h"
+#include "engine/geometry/grid_distance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/core/thread_pool.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
+#include "engine/core/thread_pool.h"
 
 namespace pedicel::geometry {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pedicel/geometry/mesh_distance.h"
+#include "engine/geometry/mesh_distance.h"
 
 namespace pedicel {
 class ThreadPool;

@@ -1,4 +1,4 @@
-#include "pedicel/geometry/grid_file.h"
+#include "engine/geometry/grid_file.h"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "pedicel/core/state_hash.h"
+#include "engine/core/state_hash.h"
 
 namespace pedicel::geometry {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "pedicel/geometry/grid_distance.h"
+#include "engine/geometry/grid_distance.h"
 
 namespace pedicel::geometry {
 

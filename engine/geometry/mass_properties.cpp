@@ -1,11 +1,11 @@
-#include "pedicel/geometry/mass_properties.h"
+#include "engine/geometry/mass_properties.h"
 
 #include <cmath>
 #include <string>
 
-#include "pedicel/core/check.h"
-#include "pedicel/geometry/aabb.h"
-#include "pedicel/geometry/mesh_topology.h"
+#include "engine/core/check.h"
+#include "engine/geometry/aabb.h"
+#include "engine/geometry/mesh_topology.h"
 
 namespace pedicel::geometry {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "pedicel/geometry/mesh.h"
+#include "engine/geometry/mesh.h"
 
 namespace pedicel::geometry {
 

@@ -1,4 +1,4 @@
-#include "pedicel/geometry/mesh.h"
+#include "engine/geometry/mesh.h"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
@@ -11,11 +11,11 @@
 #include <map>
 #include <string>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/files_read.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/geometry/mesh_file.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/files_read.h"
+#include "engine/core/stop.h"
+#include "engine/geometry/mesh_file.h"
 
 namespace pedicel::geometry {
 

@@ -1,4 +1,4 @@
-#include "pedicel/geometry/mesh_distance.h"
+#include "engine/geometry/mesh_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "pedicel/core/stop.h"
+#include "engine/core/stop.h"
 
 namespace pedicel::geometry {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/geometry/mesh_topology.h"
-#include "pedicel/geometry/signed_distance.h"
-#include "pedicel/geometry/triangle_bvh.h"
+#include "engine/geometry/mesh_topology.h"
+#include "engine/geometry/signed_distance.h"
+#include "engine/geometry/triangle_bvh.h"
 
 namespace pedicel::geometry {
 

@@ -1,4 +1,4 @@
-#include "pedicel/geometry/mesh_file.h"
+#include "engine/geometry/mesh_file.h"
 
 #include <algorithm>
 #include <cctype>

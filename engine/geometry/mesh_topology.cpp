@@ -1,4 +1,4 @@
-#include "pedicel/geometry/mesh_topology.h"
+#include "engine/geometry/mesh_topology.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "pedicel/geometry/near_exact_distance.h"
+#include "engine/geometry/near_exact_distance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/geometry/grid_distance.h"
+#include "engine/geometry/grid_distance.h"
 
 namespace pedicel::geometry {
 

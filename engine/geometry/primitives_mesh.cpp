@@ -1,10 +1,10 @@
-#include "pedicel/geometry/primitives_mesh.h"
+#include "engine/geometry/primitives_mesh.h"
 
 #include <cmath>
 #include <numbers>
 #include <string>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::geometry {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/geometry/mesh.h"
+#include "engine/geometry/mesh.h"
 
 /// Closed meshes of simple shapes, centred at the origin, axis along z, triangles counter-clockwise
 /// seen from outside. Vertices of round parts lie on the true surface, so the mesh lies inside it

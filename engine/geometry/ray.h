@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::geometry {
 

@@ -1,11 +1,11 @@
-#include "pedicel/geometry/shapes.h"
+#include "engine/geometry/shapes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::geometry {
 

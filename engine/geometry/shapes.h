@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "pedicel/geometry/signed_distance.h"
+#include "engine/geometry/signed_distance.h"
 
 /// Solids with exact distances, centred at the origin of L, axis along z (URDF's conventions).
 /// Sizes in metres; one that is not positive is a UsageError.

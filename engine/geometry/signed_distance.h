@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/geometry/aabb.h"
+#include "engine/geometry/aabb.h"
 
 namespace pedicel::geometry {
 

@@ -1,12 +1,12 @@
-#include "pedicel/geometry/triangle_bvh.h"
+#include "engine/geometry/triangle_bvh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
 
 namespace pedicel::geometry {
 

@@ -3,8 +3,8 @@
 #include <limits>
 #include <vector>
 
-#include "pedicel/geometry/aabb.h"
-#include "pedicel/geometry/closest_point.h"
+#include "engine/geometry/aabb.h"
+#include "engine/geometry/closest_point.h"
 
 namespace pedicel::geometry {
 

@@ -1,4 +1,4 @@
-#include "pedicel/io/asset_folder.h"
+#include "engine/io/asset_folder.h"
 
 #include <dlfcn.h>
 #include <sys/auxv.h>

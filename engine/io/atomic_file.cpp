@@ -1,4 +1,4 @@
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/files_read.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/files_read.h"
 
 namespace pedicel::io {
 

@@ -1,4 +1,4 @@
-#include "pedicel/io/common_folder.h"
+#include "engine/io/common_folder.h"
 
 namespace pedicel::io {
 

@@ -1,4 +1,4 @@
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 #include <cerrno>
 #include <charconv>
@@ -8,11 +8,11 @@
 #include <limits>
 #include <string_view>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv_cell.h"
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/text_file.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv_cell.h"
+#include "engine/io/table_text.h"
+#include "engine/io/text_file.h"
 
 namespace pedicel::io {
 

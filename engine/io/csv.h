@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/unit_text.h"
 
 namespace pedicel::io {
 

@@ -1,8 +1,8 @@
-#include "pedicel/io/described_map.h"
+#include "engine/io/described_map.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::io {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/io/key.h"
-#include "pedicel/io/yaml.h"
+#include "engine/io/key.h"
+#include "engine/io/yaml.h"
 
 namespace pedicel::io {
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "pedicel/io/key.h"
+#include "engine/io/key.h"
 
 namespace pedicel::io {
 

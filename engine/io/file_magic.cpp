@@ -1,4 +1,4 @@
-#include "pedicel/io/file_magic.h"
+#include "engine/io/file_magic.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
-#include "pedicel/io/html_report.h"
+#include "engine/io/html_report.h"
 
 #include <charconv>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/markup.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/markup.h"
 
 namespace pedicel::io {
 

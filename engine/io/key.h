@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/io/bounds.h"
+#include "engine/core/frames.h"
+#include "engine/io/bounds.h"
 
 namespace pedicel::io {
 

@@ -1,4 +1,4 @@
-#include "pedicel/io/markup.h"
+#include "engine/io/markup.h"
 
 namespace pedicel::io {
 

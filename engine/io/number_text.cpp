@@ -1,4 +1,4 @@
-#include "pedicel/io/number_text.h"
+#include "engine/io/number_text.h"
 
 #include <algorithm>
 #include <array>

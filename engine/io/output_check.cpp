@@ -1,4 +1,4 @@
-#include "pedicel/io/output_check.h"
+#include "engine/io/output_check.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::io {
 

@@ -1,4 +1,4 @@
-#include "pedicel/io/output_folder.h"
+#include "engine/io/output_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -13,9 +13,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/output_check.h"
-#include "pedicel/io/output_kind.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/output_check.h"
+#include "engine/io/output_kind.h"
 
 namespace pedicel::io {
 

@@ -1,11 +1,11 @@
-#include "pedicel/io/output_kind.h"
+#include "engine/io/output_kind.h"
 
 #include <algorithm>
 #include <fstream>
 #include <string>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/output_check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/output_check.h"
 
 namespace pedicel::io {
 

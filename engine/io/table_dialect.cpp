@@ -1,10 +1,10 @@
-#include "pedicel/io/table_dialect.h"
+#include "engine/io/table_dialect.h"
 
 #include <algorithm>
 #include <array>
 
-#include "pedicel/io/table_records.h"
-#include "pedicel/io/table_text.h"
+#include "engine/io/table_records.h"
+#include "engine/io/table_text.h"
 
 namespace pedicel::io {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/number_text.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/number_text.h"
 
 /// How a table is written, told from its text.
 namespace pedicel::io {

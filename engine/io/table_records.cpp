@@ -1,4 +1,4 @@
-#include "pedicel/io/table_records.h"
+#include "engine/io/table_records.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
-#include "pedicel/io/table_text.h"
+#include "engine/io/table_text.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "pedicel/io/table_dialect.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/table_dialect.h"
+#include "engine/io/text_file.h"
+#include "engine/io/unit_text.h"
 
 namespace pedicel::io {
 

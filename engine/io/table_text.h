@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/number_text.h"
-#include "pedicel/io/table_records.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/number_text.h"
+#include "engine/io/table_records.h"
 
 /// Tables as people and their programs write them, cell by cell. Everything here finds one meaning
 /// or says that there are two: nothing is guessed.

@@ -1,4 +1,4 @@
-#include "pedicel/io/text_file.h"
+#include "engine/io/text_file.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <fstream>
 #include <string_view>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/files_read.h"
-#include "pedicel/io/file_magic.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/files_read.h"
+#include "engine/io/file_magic.h"
 
 namespace pedicel::io {
 

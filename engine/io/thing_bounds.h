@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/io/bounds.h"
+#include "engine/io/bounds.h"
 
 /// What positions, extents and masses may be: beyond, numbers have too few digits for a contact or
 /// a joint. Map coordinates lie within.

@@ -1,11 +1,11 @@
-#include "pedicel/io/unit_text.h"
+#include "engine/io/unit_text.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/io/number_text.h"
+#include "engine/io/csv.h"
+#include "engine/io/number_text.h"
 
 namespace pedicel::io {
 

@@ -1,10 +1,10 @@
-#include "pedicel/io/xml_text.h"
+#include "engine/io/xml_text.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
 
-#include "pedicel/core/utf8.h"
+#include "engine/core/utf8.h"
 
 namespace pedicel::io {
 

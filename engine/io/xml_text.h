@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 /// What XML must satisfy before TinyXML reads it.
 namespace pedicel::io {

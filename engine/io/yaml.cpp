@@ -1,11 +1,11 @@
-#include "pedicel/io/yaml.h"
+#include "engine/io/yaml.h"
 
 #include <charconv>
 #include <cmath>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/bounds.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/bounds.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::io {
 

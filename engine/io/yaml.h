@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/io/bounds.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
+#include "engine/io/bounds.h"
 
 namespace pedicel::io {
 

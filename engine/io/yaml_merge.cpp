@@ -1,13 +1,13 @@
-#include "pedicel/io/yaml_merge.h"
+#include "engine/io/yaml_merge.h"
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/yaml_places.h"
-#include "pedicel/io/yaml_text.h"
+#include "engine/core/check.h"
+#include "engine/io/yaml_places.h"
+#include "engine/io/yaml_text.h"
 
 namespace pedicel::io {
 

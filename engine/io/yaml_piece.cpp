@@ -1,9 +1,9 @@
-#include "pedicel/io/yaml_piece.h"
+#include "engine/io/yaml_piece.h"
 
 #include <algorithm>
 
-#include "pedicel/io/yaml.h"
-#include "pedicel/io/yaml_words.h"
+#include "engine/io/yaml.h"
+#include "engine/io/yaml_words.h"
 
 namespace pedicel::io {
 

@@ -1,10 +1,10 @@
-#include "pedicel/io/yaml_places.h"
+#include "engine/io/yaml_places.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/yaml_words.h"
+#include "engine/core/check.h"
+#include "engine/io/yaml_words.h"
 
 namespace pedicel::io {
 

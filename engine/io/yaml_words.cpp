@@ -1,4 +1,4 @@
-#include "pedicel/io/yaml_words.h"
+#include "engine/io/yaml_words.h"
 
 #include <charconv>
 #include <cmath>

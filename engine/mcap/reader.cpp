@@ -1,12 +1,12 @@
-#include "pedicel/mcap/reader.h"
+#include "engine/mcap/reader.h"
 
 #include <zstd.h>
 
 #include <fstream>
 #include <memory>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/mcap/unpack.h"
+#include "engine/core/diagnostics.h"
+#include "engine/mcap/unpack.h"
 
 namespace pedicel::mcap {
 

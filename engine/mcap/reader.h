@@ -4,7 +4,7 @@
 #include <functional>
 #include <istream>
 
-#include "pedicel/mcap/records.h"
+#include "engine/mcap/records.h"
 
 namespace pedicel::mcap {
 

@@ -1,4 +1,4 @@
-#include "pedicel/mcap/records.h"
+#include "engine/mcap/records.h"
 
 #include <zlib.h>
 

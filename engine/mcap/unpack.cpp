@@ -1,4 +1,4 @@
-#include "pedicel/mcap/unpack.h"
+#include "engine/mcap/unpack.h"
 
 #include <algorithm>
 #include <memory>

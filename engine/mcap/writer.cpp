@@ -1,4 +1,4 @@
-#include "pedicel/mcap/writer.h"
+#include "engine/mcap/writer.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -11,9 +11,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/output_check.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/output_check.h"
 
 namespace pedicel::mcap {
 

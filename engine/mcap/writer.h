@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/mcap/records.h"
+#include "engine/mcap/records.h"
 
 namespace pedicel::mcap {
 

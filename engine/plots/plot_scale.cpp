@@ -1,11 +1,11 @@
-#include "pedicel/plots/plot_scale.h"
+#include "engine/plots/plot_scale.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::plots {
 

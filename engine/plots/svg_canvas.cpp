@@ -1,9 +1,9 @@
-#include "pedicel/plots/svg_canvas.h"
+#include "engine/plots/svg_canvas.h"
 
 #include <algorithm>
 #include <cstdio>
 
-#include "pedicel/io/markup.h"
+#include "engine/io/markup.h"
 
 namespace pedicel::plots {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/plots/plot_scale.h"
+#include "engine/plots/plot_scale.h"
 
 namespace pedicel::plots {
 

@@ -1,14 +1,14 @@
-#include "pedicel/plots/svg_heat_map.h"
+#include "engine/plots/svg_heat_map.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/markup.h"
-#include "pedicel/plots/svg_canvas.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "engine/io/markup.h"
+#include "engine/plots/svg_canvas.h"
 
 namespace pedicel::plots {
 

@@ -1,12 +1,12 @@
-#include "pedicel/plots/svg_polar.h"
+#include "engine/plots/svg_polar.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/plots/svg_canvas.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "engine/plots/svg_canvas.h"
 
 namespace pedicel::plots {
 

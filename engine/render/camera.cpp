@@ -1,9 +1,9 @@
-#include "pedicel/render/camera.h"
+#include "engine/render/camera.h"
 
 #include <cmath>
 #include <string>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::render {
 

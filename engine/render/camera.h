@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/core/frames.h"
-#include "pedicel/geometry/ray.h"
+#include "engine/core/frames.h"
+#include "engine/geometry/ray.h"
 
 namespace pedicel::render {
 

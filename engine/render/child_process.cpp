@@ -1,4 +1,4 @@
-#include "pedicel/render/child_process.h"
+#include "engine/render/child_process.h"
 
 #include <fcntl.h>
 #include <signal.h>

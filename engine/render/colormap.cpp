@@ -1,11 +1,11 @@
-#include "pedicel/render/colormap.h"
+#include "engine/render/colormap.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/render/colour_space.h"
+#include "engine/render/colour_space.h"
 
 namespace pedicel::render {
 

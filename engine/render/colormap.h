@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/render/draw_list.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::render {
 

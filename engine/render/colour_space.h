@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pedicel/render/draw_list.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::render {
 

@@ -1,8 +1,8 @@
-#include "pedicel/render/contact_map.h"
+#include "engine/render/contact_map.h"
 
 #include <cmath>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::render {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pedicel/render/camera.h"
-#include "pedicel/render/gl_functions.h"
-#include "pedicel/render/programs.h"
-#include "pedicel/render/shadow_map.h"
+#include "engine/render/camera.h"
+#include "engine/render/gl_functions.h"
+#include "engine/render/programs.h"
+#include "engine/render/shadow_map.h"
 
 namespace pedicel::render {
 

@@ -1,4 +1,4 @@
-#include "pedicel/render/draw_list.h"
+#include "engine/render/draw_list.h"
 
 #include <cmath>
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/geometry/mesh.h"
+#include "engine/core/frames.h"
+#include "engine/geometry/mesh.h"
 
 namespace pedicel::render {
 

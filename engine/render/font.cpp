@@ -1,4 +1,4 @@
-#include "pedicel/render/font.h"
+#include "engine/render/font.h"
 
 #include <algorithm>
 #include <map>

@@ -1,10 +1,10 @@
-#include "pedicel/render/frame_geometry.h"
+#include "engine/render/frame_geometry.h"
 
 #include <cmath>
 #include <initializer_list>
 
-#include "pedicel/render/colour_space.h"
-#include "pedicel/render/mesh_normals.h"
+#include "engine/render/colour_space.h"
+#include "engine/render/mesh_normals.h"
 
 namespace pedicel::render {
 

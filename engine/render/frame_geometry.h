@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/render/camera.h"
-#include "pedicel/render/draw_list.h"
-#include "pedicel/render/programs.h"
-#include "pedicel/render/unit_meshes.h"
+#include "engine/render/camera.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/programs.h"
+#include "engine/render/unit_meshes.h"
 
 namespace pedicel::render {
 

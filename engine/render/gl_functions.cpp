@@ -1,4 +1,4 @@
-#include "pedicel/render/gl_functions.h"
+#include "engine/render/gl_functions.h"
 
 #include <stdexcept>
 #include <string>

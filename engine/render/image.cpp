@@ -1,4 +1,4 @@
-#include "pedicel/render/image.h"
+#include "engine/render/image.h"
 
 #include <png.h>
 #include <unistd.h>
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <memory>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::render {
 

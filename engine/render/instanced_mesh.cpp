@@ -1,4 +1,4 @@
-#include "pedicel/render/instanced_mesh.h"
+#include "engine/render/instanced_mesh.h"
 
 #include <numeric>
 

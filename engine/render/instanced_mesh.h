@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/render/gl_functions.h"
+#include "engine/render/gl_functions.h"
 
 namespace pedicel::render {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "pedicel/render/draw_list.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::render {
 

@@ -1,7 +1,7 @@
-#include "pedicel/render/label_pass.h"
+#include "engine/render/label_pass.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/render/shaders.h"
+#include "engine/core/check.h"
+#include "engine/render/shaders.h"
 
 namespace pedicel::render {
 

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "pedicel/render/frame_geometry.h"
-#include "pedicel/render/label_map.h"
-#include "pedicel/render/programs.h"
+#include "engine/render/frame_geometry.h"
+#include "engine/render/label_map.h"
+#include "engine/render/programs.h"
 
 namespace pedicel::render {
 

@@ -1,4 +1,4 @@
-#include "pedicel/render/mesh_normals.h"
+#include "engine/render/mesh_normals.h"
 
 #include <cmath>
 #include <map>

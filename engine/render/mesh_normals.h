@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/geometry/mesh.h"
-#include "pedicel/render/instanced_mesh.h"
+#include "engine/geometry/mesh.h"
+#include "engine/render/instanced_mesh.h"
 
 namespace pedicel::render {
 

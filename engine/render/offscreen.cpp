@@ -1,4 +1,4 @@
-#include "pedicel/render/offscreen.h"
+#include "engine/render/offscreen.h"
 
 #include <stdexcept>
 

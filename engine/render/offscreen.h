@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "pedicel/render/gl_functions.h"
-#include "pedicel/render/osmesa_context.h"
+#include "engine/render/gl_functions.h"
+#include "engine/render/osmesa_context.h"
 
 namespace pedicel::render {
 

@@ -1,4 +1,4 @@
-#include "pedicel/render/osmesa_context.h"
+#include "engine/render/osmesa_context.h"
 
 #ifdef PEDICEL_HAS_OSMESA
 

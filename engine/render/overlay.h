@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/render/camera.h"
-#include "pedicel/render/image.h"
-#include "pedicel/render/text.h"
+#include "engine/render/camera.h"
+#include "engine/render/image.h"
+#include "engine/render/text.h"
 
 namespace pedicel::render {
 

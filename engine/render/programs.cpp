@@ -1,9 +1,9 @@
-#include "pedicel/render/programs.h"
+#include "engine/render/programs.h"
 
 #include <stdexcept>
 #include <string>
 
-#include "pedicel/render/shaders.h"
+#include "engine/render/shaders.h"
 
 namespace pedicel::render {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "pedicel/render/gl_functions.h"
+#include "engine/render/gl_functions.h"
 
 namespace pedicel::render {
 

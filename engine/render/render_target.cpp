@@ -1,6 +1,6 @@
-#include "pedicel/render/render_target.h"
+#include "engine/render/render_target.h"
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::render {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/render/gl_functions.h"
-#include "pedicel/render/image.h"
+#include "engine/render/gl_functions.h"
+#include "engine/render/image.h"
 
 namespace pedicel::render {
 

@@ -1,16 +1,16 @@
-#include "pedicel/render/renderer.h"
+#include "engine/render/renderer.h"
 
 #include <map>
 #include <string>
 
-#include "pedicel/core/check.h"
-#include "pedicel/render/colour_space.h"
-#include "pedicel/render/contact_map.h"
-#include "pedicel/render/frame_geometry.h"
-#include "pedicel/render/label_pass.h"
-#include "pedicel/render/programs.h"
-#include "pedicel/render/render_target.h"
-#include "pedicel/render/shadow_map.h"
+#include "engine/core/check.h"
+#include "engine/render/colour_space.h"
+#include "engine/render/contact_map.h"
+#include "engine/render/frame_geometry.h"
+#include "engine/render/label_pass.h"
+#include "engine/render/programs.h"
+#include "engine/render/render_target.h"
+#include "engine/render/shadow_map.h"
 
 namespace pedicel::render {
 

@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include "pedicel/render/camera.h"
-#include "pedicel/render/draw_list.h"
-#include "pedicel/render/gl_functions.h"
-#include "pedicel/render/image.h"
-#include "pedicel/render/label_map.h"
+#include "engine/render/camera.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/gl_functions.h"
+#include "engine/render/image.h"
+#include "engine/render/label_map.h"
 
 namespace pedicel::render {
 

@@ -1,4 +1,4 @@
-#include "pedicel/render/shaders.h"
+#include "engine/render/shaders.h"
 
 namespace pedicel::render::shaders {
 

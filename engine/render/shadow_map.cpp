@@ -1,9 +1,9 @@
-#include "pedicel/render/shadow_map.h"
+#include "engine/render/shadow_map.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::render {
 

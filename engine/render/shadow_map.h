@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/render/camera.h"
-#include "pedicel/render/gl_functions.h"
+#include "engine/render/camera.h"
+#include "engine/render/gl_functions.h"
 
 namespace pedicel::render {
 

@@ -1,10 +1,10 @@
-#include "pedicel/render/text.h"
+#include "engine/render/text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "pedicel/render/font.h"
+#include "engine/render/font.h"
 
 namespace pedicel::render {
 

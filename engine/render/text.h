@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "pedicel/render/draw_list.h"
-#include "pedicel/render/image.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/image.h"
 
 namespace pedicel::render {
 

@@ -1,12 +1,12 @@
-#include "pedicel/render/unit_meshes.h"
+#include "engine/render/unit_meshes.h"
 
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/render/mesh_normals.h"
+#include "engine/core/frames.h"
+#include "engine/render/mesh_normals.h"
 
 namespace pedicel::render {
 

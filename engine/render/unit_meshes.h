@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "pedicel/render/instanced_mesh.h"
+#include "engine/render/instanced_mesh.h"
 
 namespace pedicel::render {
 

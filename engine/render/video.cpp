@@ -1,4 +1,4 @@
-#include "pedicel/render/video.h"
+#include "engine/render/video.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/core/check.h"
-#include "pedicel/render/child_process.h"
+#include "engine/core/check.h"
+#include "engine/render/child_process.h"
 
 namespace pedicel::render {
 

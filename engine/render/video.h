@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "pedicel/render/image.h"
+#include "engine/render/image.h"
 
 namespace pedicel::render {
 

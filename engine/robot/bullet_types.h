@@ -2,7 +2,7 @@
 
 #include <LinearMath/btTransform.h>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::robot {
 

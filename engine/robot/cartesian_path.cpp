@@ -1,12 +1,12 @@
-#include "pedicel/robot/cartesian_path.h"
+#include "engine/robot/cartesian_path.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/robot/joint_range.h"
+#include "engine/io/csv.h"
+#include "engine/robot/joint_range.h"
 
 namespace pedicel::robot {
 

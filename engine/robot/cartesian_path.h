@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/robot/inverse_kinematics.h"
-#include "pedicel/robot/trajectory.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/yaml.h"
+#include "engine/robot/inverse_kinematics.h"
+#include "engine/robot/trajectory.h"
 
 namespace pedicel::robot {
 

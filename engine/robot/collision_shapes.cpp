@@ -1,4 +1,4 @@
-#include "pedicel/robot/collision_shapes.h"
+#include "engine/robot/collision_shapes.h"
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
@@ -7,7 +7,7 @@
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <LinearMath/btConvexHullComputer.h>
 
-#include "pedicel/robot/bullet_types.h"
+#include "engine/robot/bullet_types.h"
 
 namespace pedicel::robot {
 

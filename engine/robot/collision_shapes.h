@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/robot/rigid_groups.h"
+#include "engine/robot/rigid_groups.h"
 
 namespace pedicel::robot {
 

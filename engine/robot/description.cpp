@@ -1,4 +1,4 @@
-#include "pedicel/robot/description.h"
+#include "engine/robot/description.h"
 
 namespace pedicel::robot {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/geometry/mesh.h"
+#include "engine/core/frames.h"
+#include "engine/geometry/mesh.h"
 
 namespace pedicel::robot {
 

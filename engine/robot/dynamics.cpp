@@ -1,4 +1,4 @@
-#include "pedicel/robot/dynamics.h"
+#include "engine/robot/dynamics.h"
 
 namespace pedicel::robot {
 

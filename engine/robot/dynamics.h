@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
 
 namespace pedicel::robot {
 

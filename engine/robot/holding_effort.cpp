@@ -1,8 +1,8 @@
-#include "pedicel/robot/holding_effort.h"
+#include "engine/robot/holding_effort.h"
 
 #include <cmath>
 
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::robot {
 

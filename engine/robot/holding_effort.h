@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/robot/dynamics.h"
+#include "engine/robot/dynamics.h"
 
 namespace pedicel::robot {
 

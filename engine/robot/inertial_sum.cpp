@@ -1,4 +1,4 @@
-#include "pedicel/robot/inertial_sum.h"
+#include "engine/robot/inertial_sum.h"
 
 namespace pedicel::robot {
 

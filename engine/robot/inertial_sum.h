@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/robot/description.h"
+#include "engine/robot/description.h"
 
 namespace pedicel::robot {
 

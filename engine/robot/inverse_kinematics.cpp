@@ -1,12 +1,12 @@
-#include "pedicel/robot/inverse_kinematics.h"
+#include "engine/robot/inverse_kinematics.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/core/random.h"
-#include "pedicel/io/csv.h"
+#include "engine/core/random.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::robot {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
 
 namespace pedicel::robot {
 

@@ -1,10 +1,10 @@
-#include "pedicel/robot/joint_drive.h"
+#include "engine/robot/joint_drive.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/robot/bullet_types.h"
+#include "engine/robot/bullet_types.h"
 
 namespace pedicel::robot {
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/robot/dynamics.h"
-#include "pedicel/robot/joint_motors.h"
-#include "pedicel/robot/joint_rows.h"
-#include "pedicel/robot/multibody.h"
+#include "engine/robot/dynamics.h"
+#include "engine/robot/joint_motors.h"
+#include "engine/robot/joint_rows.h"
+#include "engine/robot/multibody.h"
 
 namespace pedicel::robot {
 

@@ -1,9 +1,9 @@
-#include "pedicel/robot/joint_motors.h"
+#include "engine/robot/joint_motors.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
-#include "pedicel/robot/joint_drive.h"
+#include "engine/core/check.h"
+#include "engine/robot/joint_drive.h"
 
 namespace pedicel::robot {
 

@@ -1,9 +1,9 @@
-#include "pedicel/robot/joint_range.h"
+#include "engine/robot/joint_range.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::robot {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
 
 namespace pedicel::robot {
 

@@ -1,9 +1,9 @@
-#include "pedicel/robot/joint_rows.h"
+#include "engine/robot/joint_rows.h"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::robot {
 

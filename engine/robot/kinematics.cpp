@@ -1,8 +1,8 @@
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::robot {
 

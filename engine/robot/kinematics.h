@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/robot/description.h"
+#include "engine/robot/description.h"
 
 namespace pedicel::robot {
 

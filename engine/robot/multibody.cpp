@@ -1,7 +1,7 @@
-#include "pedicel/robot/multibody.h"
+#include "engine/robot/multibody.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/robot/bullet_types.h"
+#include "engine/core/check.h"
+#include "engine/robot/bullet_types.h"
 
 namespace pedicel::robot {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/robot/collision_shapes.h"
-#include "pedicel/robot/robot.h"
+#include "engine/robot/collision_shapes.h"
+#include "engine/robot/robot.h"
 
 namespace pedicel::robot {
 

@@ -1,8 +1,8 @@
-#include "pedicel/robot/rigid_groups.h"
+#include "engine/robot/rigid_groups.h"
 
 #include <Eigen/Eigenvalues>
 
-#include "pedicel/robot/inertial_sum.h"
+#include "engine/robot/inertial_sum.h"
 
 namespace pedicel::robot {
 

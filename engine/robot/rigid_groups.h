@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
 
 namespace pedicel::robot {
 

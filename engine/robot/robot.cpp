@@ -1,13 +1,13 @@
-#include "pedicel/robot/robot.h"
+#include "engine/robot/robot.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "pedicel/core/check.h"
-#include "pedicel/robot/bullet_types.h"
-#include "pedicel/robot/joint_drive.h"
-#include "pedicel/robot/multibody.h"
+#include "engine/core/check.h"
+#include "engine/robot/bullet_types.h"
+#include "engine/robot/joint_drive.h"
+#include "engine/robot/multibody.h"
 
 namespace pedicel::robot {
 

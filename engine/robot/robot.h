@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/parameter.h"
-#include "pedicel/core/state_hash.h"
-#include "pedicel/robot/joint_motors.h"
-#include "pedicel/robot/kinematics.h"
+#include "engine/core/parameter.h"
+#include "engine/core/state_hash.h"
+#include "engine/robot/joint_motors.h"
+#include "engine/robot/kinematics.h"
 
 class btMultiBody;
 class btMultiBodyDynamicsWorld;

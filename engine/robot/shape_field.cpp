@@ -1,4 +1,4 @@
-#include "pedicel/robot/shape_field.h"
+#include "engine/robot/shape_field.h"
 
 namespace pedicel::robot {
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "pedicel/geometry/shapes.h"
-#include "pedicel/robot/description.h"
+#include "engine/geometry/shapes.h"
+#include "engine/robot/description.h"
 
 namespace pedicel::robot {
 

@@ -1,8 +1,8 @@
-#include "pedicel/robot/trajectory.h"
+#include "engine/robot/trajectory.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::robot {
 

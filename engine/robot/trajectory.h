@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/robot/kinematics.h"
+#include "engine/core/diagnostics.h"
+#include "engine/robot/kinematics.h"
 
 namespace pedicel::robot {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/io/csv_cell.h"
-#include "pedicel/robot/joint_range.h"
-#include "pedicel/robot/trajectory.h"
+#include "engine/io/csv.h"
+#include "engine/io/csv_cell.h"
+#include "engine/robot/joint_range.h"
+#include "engine/robot/trajectory.h"
 
 namespace pedicel::robot {
 

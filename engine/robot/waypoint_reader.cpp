@@ -1,4 +1,4 @@
-#include "pedicel/robot/cartesian_path.h"
+#include "engine/robot/cartesian_path.h"
 
 namespace pedicel::robot {
 

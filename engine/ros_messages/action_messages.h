@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/ros_messages/control_messages.h"
+#include "engine/ros_messages/control_messages.h"
 
 /// Actions: what a client and a server of one say to each other, and the two that arms have.
 namespace pedicel::ros {

@@ -1,4 +1,4 @@
-#include "pedicel/ros_messages/cdr.h"
+#include "engine/ros_messages/cdr.h"
 
 namespace pedicel::ros {
 

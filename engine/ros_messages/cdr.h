@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/ros_messages/definition.h"
-#include "pedicel/ros_messages/field_reader.h"
+#include "engine/ros_messages/definition.h"
+#include "engine/ros_messages/field_reader.h"
 
 /// Messages as bytes and back: CDR as ROS 2 sends it (plain CDR version 1, four bytes of header,
 /// each number at a multiple of its own size).

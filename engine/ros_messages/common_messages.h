@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pedicel/ros_messages/definition.h"
+#include "engine/ros_messages/definition.h"
 
 /// builtin_interfaces, std_msgs, rosgraph_msgs, geometry_msgs, tf2_msgs. Names, types and order of
 /// all fields are those of the published definitions. SI units, quaternions x, y, z, w.

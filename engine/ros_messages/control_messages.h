@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/ros_messages/sensor_messages.h"
+#include "engine/ros_messages/sensor_messages.h"
 
 /// trajectory_msgs and control_msgs: what arms are told, and named values of named things.
 namespace pedicel::ros {

@@ -1,4 +1,4 @@
-#include "pedicel/ros_messages/definition.h"
+#include "engine/ros_messages/definition.h"
 
 namespace pedicel::ros {
 

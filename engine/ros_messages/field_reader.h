@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/ros_messages/definition.h"
+#include "engine/ros_messages/definition.h"
 
 namespace pedicel::ros {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/ros_messages/sensor_messages.h"
+#include "engine/ros_messages/sensor_messages.h"
 
 /// visualization_msgs: what RViz draws.
 namespace pedicel::ros {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/ros_messages/common_messages.h"
-#include "pedicel/ros_messages/field_reader.h"
+#include "engine/ros_messages/common_messages.h"
+#include "engine/ros_messages/field_reader.h"
 
 /// Messages as ROS 1 sends them: little-endian, packed, texts without a closing zero, and a header
 /// that begins with a counter (`seq`). Fields are otherwise those of ROS 2.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/ros_messages/common_messages.h"
+#include "engine/ros_messages/common_messages.h"
 
 /// sensor_msgs.
 namespace pedicel::ros {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/ros_messages/common_messages.h"
+#include "engine/ros_messages/common_messages.h"
 
 /// simulation_interfaces 2.1: the services by which simulators are steered.
 namespace pedicel::ros {

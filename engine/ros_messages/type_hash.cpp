@@ -1,4 +1,4 @@
-#include "pedicel/ros_messages/type_hash.h"
+#include "engine/ros_messages/type_hash.h"
 
 #include <algorithm>
 #include <bit>

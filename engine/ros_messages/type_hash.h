@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/ros_messages/definition.h"
+#include "engine/ros_messages/definition.h"
 
 namespace pedicel::ros {
 

@@ -1,10 +1,10 @@
-#include "pedicel/rosbag/reader.h"
+#include "engine/rosbag/reader.h"
 
 #include <algorithm>
 #include <fstream>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/mcap/unpack.h"
+#include "engine/core/diagnostics.h"
+#include "engine/mcap/unpack.h"
 
 namespace pedicel::rosbag {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/mcap/reader.h"
+#include "engine/mcap/reader.h"
 
 /// Bags of ROS 1, format 2.0.
 namespace pedicel::rosbag {

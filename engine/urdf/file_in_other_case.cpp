@@ -1,4 +1,4 @@
-#include "pedicel/urdf/file_in_other_case.h"
+#include "engine/urdf/file_in_other_case.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,9 +1,9 @@
-#include "pedicel/urdf/missing_meshes.h"
+#include "engine/urdf/missing_meshes.h"
 
 #include <algorithm>
 #include <set>
 
-#include "pedicel/urdf/urdf_remarks.h"
+#include "engine/urdf/urdf_remarks.h"
 
 namespace pedicel::robot {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::robot {
 

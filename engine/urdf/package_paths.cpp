@@ -1,11 +1,11 @@
-#include "pedicel/urdf/package_paths.h"
+#include "engine/urdf/package_paths.h"
 
 #include <charconv>
 #include <cstdlib>
 #include <sstream>
 
-#include "pedicel/core/check.h"
-#include "pedicel/urdf/file_in_other_case.h"
+#include "engine/core/check.h"
+#include "engine/urdf/file_in_other_case.h"
 
 namespace pedicel::robot {
 

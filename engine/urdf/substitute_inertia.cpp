@@ -1,12 +1,12 @@
-#include "pedicel/urdf/substitute_inertia.h"
+#include "engine/urdf/substitute_inertia.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/geometry/mass_properties.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/robot/inertial_sum.h"
+#include "engine/geometry/mass_properties.h"
+#include "engine/io/csv.h"
+#include "engine/robot/inertial_sum.h"
 
 namespace pedicel::robot {
 

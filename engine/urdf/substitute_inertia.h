@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/robot/description.h"
+#include "engine/robot/description.h"
 
 namespace pedicel::robot {
 

@@ -1,7 +1,7 @@
 #include <map>
 
-#include "pedicel/robot/description.h"
-#include "pedicel/urdf/urdf_xml.h"
+#include "engine/robot/description.h"
+#include "engine/urdf/urdf_xml.h"
 
 namespace pedicel::robot {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/io/thing_bounds.h"
-#include "pedicel/urdf/urdf_xml.h"
+#include "engine/io/csv.h"
+#include "engine/io/thing_bounds.h"
+#include "engine/urdf/urdf_xml.h"
 
 namespace pedicel::robot {
 

@@ -1,6 +1,6 @@
 #include <map>
 
-#include "pedicel/urdf/urdf_xml.h"
+#include "engine/urdf/urdf_xml.h"
 
 namespace pedicel::robot {
 

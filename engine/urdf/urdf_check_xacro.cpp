@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "pedicel/urdf/urdf_xml.h"
+#include "engine/urdf/urdf_xml.h"
 
 namespace pedicel::robot {
 

@@ -1,8 +1,8 @@
-#include "pedicel/urdf/urdf_geometry.h"
+#include "engine/urdf/urdf_geometry.h"
 
 #include <urdf_model/pose.h>
 
-#include "pedicel/geometry/mesh_file.h"
+#include "engine/geometry/mesh_file.h"
 
 namespace pedicel::robot {
 

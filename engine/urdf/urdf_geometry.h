@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/robot/description.h"
-#include "pedicel/urdf/missing_meshes.h"
-#include "pedicel/urdf/package_paths.h"
-#include "pedicel/urdf/urdf_remarks.h"
-#include "pedicel/urdf/urdf_xml.h"
+#include "engine/robot/description.h"
+#include "engine/urdf/missing_meshes.h"
+#include "engine/urdf/package_paths.h"
+#include "engine/urdf/urdf_remarks.h"
+#include "engine/urdf/urdf_xml.h"
 
 namespace pedicel::robot {
 

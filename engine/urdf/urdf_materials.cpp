@@ -1,4 +1,4 @@
-#include "pedicel/urdf/urdf_materials.h"
+#include "engine/urdf/urdf_materials.h"
 
 #include <charconv>
 #include <sstream>

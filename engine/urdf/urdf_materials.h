@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/urdf/urdf_remarks.h"
-#include "pedicel/urdf/urdf_xml.h"
+#include "engine/urdf/urdf_remarks.h"
+#include "engine/urdf/urdf_xml.h"
 
 namespace pedicel::robot {
 

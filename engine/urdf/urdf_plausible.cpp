@@ -1,11 +1,11 @@
-#include "pedicel/urdf/urdf_plausible.h"
+#include "engine/urdf/urdf_plausible.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::robot {
 

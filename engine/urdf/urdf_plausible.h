@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/robot/description.h"
-#include "pedicel/urdf/urdf_remarks.h"
-#include "pedicel/urdf/urdf_xml.h"
+#include "engine/robot/description.h"
+#include "engine/urdf/urdf_remarks.h"
+#include "engine/urdf/urdf_xml.h"
 
 namespace pedicel::robot {
 

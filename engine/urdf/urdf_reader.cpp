@@ -1,18 +1,18 @@
-#include "pedicel/urdf/urdf_reader.h"
+#include "engine/urdf/urdf_reader.h"
 
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/urdf/substitute_inertia.h"
-#include "pedicel/urdf/urdf_geometry.h"
-#include "pedicel/urdf/urdf_materials.h"
-#include "pedicel/urdf/urdf_plausible.h"
-#include "pedicel/urdf/urdf_text.h"
-#include "pedicel/urdf/urdf_xml.h"
-#include "pedicel/urdf/urdfdom_text.h"
+#include "engine/io/atomic_file.h"
+#include "engine/urdf/substitute_inertia.h"
+#include "engine/urdf/urdf_geometry.h"
+#include "engine/urdf/urdf_materials.h"
+#include "engine/urdf/urdf_plausible.h"
+#include "engine/urdf/urdf_text.h"
+#include "engine/urdf/urdf_xml.h"
+#include "engine/urdf/urdfdom_text.h"
 
 namespace pedicel::robot {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/robot/description.h"
-#include "pedicel/urdf/package_paths.h"
+#include "engine/core/diagnostics.h"
+#include "engine/robot/description.h"
+#include "engine/urdf/package_paths.h"
 
 namespace pedicel::robot {
 

@@ -1,4 +1,4 @@
-#include "pedicel/urdf/urdf_remarks.h"
+#include "engine/urdf/urdf_remarks.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,12 +1,12 @@
-#include "pedicel/urdf/urdf_text.h"
+#include "engine/urdf/urdf_text.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "pedicel/geometry/mesh_file.h"
-#include "pedicel/io/file_magic.h"
-#include "pedicel/io/xml_text.h"
+#include "engine/geometry/mesh_file.h"
+#include "engine/io/file_magic.h"
+#include "engine/io/xml_text.h"
 
 namespace pedicel::robot {
 

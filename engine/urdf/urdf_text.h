@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::robot {
 

@@ -1,4 +1,4 @@
-#include "pedicel/urdf/urdf_xml.h"
+#include "engine/urdf/urdf_xml.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "pedicel/io/thing_bounds.h"
+#include "engine/io/thing_bounds.h"
 
 namespace pedicel::robot {
 

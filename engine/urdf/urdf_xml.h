@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/urdf/urdf_remarks.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
+#include "engine/urdf/urdf_remarks.h"
 
 namespace pedicel::robot {
 

@@ -1,8 +1,8 @@
-#include "pedicel/urdf/urdfdom_text.h"
+#include "engine/urdf/urdfdom_text.h"
 
 #include <set>
 
-#include "pedicel/urdf/urdf_xml.h"
+#include "engine/urdf/urdf_xml.h"
 
 namespace pedicel::robot {
 

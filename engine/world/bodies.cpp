@@ -1,4 +1,4 @@
-#include "pedicel/world/bodies.h"
+#include "engine/world/bodies.h"
 
 namespace pedicel::world {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::world {
 

@@ -1,12 +1,12 @@
-#include "pedicel/world/expectation.h"
+#include "engine/world/expectation.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::world {
 

@@ -1,13 +1,13 @@
-#include "pedicel/world/place_settings.h"
+#include "engine/world/place_settings.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/world/scene_sections.h"
-#include "pedicel/world/settings.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "engine/world/scene_sections.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::world {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/world/scene.h"
+#include "engine/world/scene.h"
 
 namespace pedicel::world {
 

@@ -1,9 +1,9 @@
-#include "pedicel/world/recorder.h"
+#include "engine/world/recorder.h"
 
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/world/sim_world.h"
+#include "engine/core/check.h"
+#include "engine/world/sim_world.h"
 
 namespace pedicel::world {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/world/step.h"
+#include "engine/core/frames.h"
+#include "engine/io/csv.h"
+#include "engine/world/step.h"
 
 namespace pedicel::world {
 

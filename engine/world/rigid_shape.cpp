@@ -1,9 +1,9 @@
-#include "pedicel/world/rigid_shape.h"
+#include "engine/world/rigid_shape.h"
 
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "pedicel/robot/bullet_types.h"
+#include "engine/robot/bullet_types.h"
 
 namespace pedicel::world {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/world/bodies.h"
+#include "engine/world/bodies.h"
 
 namespace pedicel::world {
 

@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/io/yaml_piece.h"
-#include "pedicel/world/bodies.h"
-#include "pedicel/world/expectation.h"
-#include "pedicel/world/sensors.h"
-#include "pedicel/world/variation.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
+#include "engine/io/yaml_piece.h"
+#include "engine/world/bodies.h"
+#include "engine/world/expectation.h"
+#include "engine/world/sensors.h"
+#include "engine/world/variation.h"
 
 namespace pedicel::world {
 

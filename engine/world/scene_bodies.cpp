@@ -1,6 +1,6 @@
-#include "pedicel/io/thing_bounds.h"
-#include "pedicel/io/yaml_words.h"
-#include "pedicel/world/scene_sections.h"
+#include "engine/io/thing_bounds.h"
+#include "engine/io/yaml_words.h"
+#include "engine/world/scene_sections.h"
 
 namespace pedicel::world::sections {
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "pedicel/world/scene_sections.h"
+#include "engine/world/scene_sections.h"
 
 namespace pedicel::world::sections {
 

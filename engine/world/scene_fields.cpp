@@ -1,4 +1,4 @@
-#include "pedicel/world/scene_fields.h"
+#include "engine/world/scene_fields.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,10 +6,10 @@
 #include <map>
 #include <string_view>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/yaml_words.h"
-#include "pedicel/world/scene_writer.h"
-#include "pedicel/world/settings.h"
+#include "engine/core/check.h"
+#include "engine/io/yaml_words.h"
+#include "engine/world/scene_writer.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::world::fields {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/world/scene.h"
+#include "engine/world/scene.h"
 
 /// The parts of the scene writer, one a section of the file (scene_writer.cpp calls them): each is
 /// a map in one line, {key: value, ...}.

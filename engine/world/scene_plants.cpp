@@ -1,8 +1,8 @@
-#include "pedicel/io/csv.h"
-#include "pedicel/io/thing_bounds.h"
-#include "pedicel/io/unit_text.h"
-#include "pedicel/io/yaml_words.h"
-#include "pedicel/world/scene_sections.h"
+#include "engine/io/csv.h"
+#include "engine/io/thing_bounds.h"
+#include "engine/io/unit_text.h"
+#include "engine/io/yaml_words.h"
+#include "engine/world/scene_sections.h"
 
 namespace pedicel::world::sections {
 

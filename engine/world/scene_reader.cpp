@@ -1,11 +1,11 @@
-#include "pedicel/world/scene_reader.h"
+#include "engine/world/scene_reader.h"
 
 #include <algorithm>
 #include <set>
 
-#include "pedicel/core/check.h"
-#include "pedicel/world/scene_sections.h"
-#include "pedicel/world/settings.h"
+#include "engine/core/check.h"
+#include "engine/world/scene_sections.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::world {
 

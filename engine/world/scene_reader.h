@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/world/scene.h"
+#include "engine/world/scene.h"
 
 namespace pedicel::io {
 struct KeyList;

@@ -1,5 +1,5 @@
-#include "pedicel/io/thing_bounds.h"
-#include "pedicel/world/scene_sections.h"
+#include "engine/io/thing_bounds.h"
+#include "engine/world/scene_sections.h"
 
 namespace pedicel::world::sections {
 

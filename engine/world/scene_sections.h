@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/io/described_map.h"
-#include "pedicel/world/scene.h"
+#include "engine/io/described_map.h"
+#include "engine/world/scene.h"
 
 /// The parts of the scene reader, one a section of the file (scene_reader.cpp calls them).
 namespace pedicel::world::sections {

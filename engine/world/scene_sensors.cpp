@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/io/thing_bounds.h"
-#include "pedicel/world/scene_sections.h"
-#include "pedicel/world/settings.h"
+#include "engine/io/csv.h"
+#include "engine/io/thing_bounds.h"
+#include "engine/world/scene_sections.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::world::sections {
 

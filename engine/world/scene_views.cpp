@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "pedicel/world/scene_sections.h"
-#include "pedicel/world/settings.h"
+#include "engine/world/scene_sections.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::world::sections {
 

@@ -1,9 +1,9 @@
-#include "pedicel/world/scene_writer.h"
+#include "engine/world/scene_writer.h"
 
 #include <cmath>
 
-#include "pedicel/io/yaml_words.h"
-#include "pedicel/world/scene_fields.h"
+#include "engine/io/yaml_words.h"
+#include "engine/world/scene_fields.h"
 
 namespace pedicel::world {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/world/scene.h"
+#include "engine/world/scene.h"
 
 namespace pedicel::world {
 

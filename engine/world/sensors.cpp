@@ -1,4 +1,4 @@
-#include "pedicel/world/sensors.h"
+#include "engine/world/sensors.h"
 
 namespace pedicel::world {
 

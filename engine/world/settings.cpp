@@ -1,12 +1,12 @@
-#include "pedicel/world/settings.h"
+#include "engine/world/settings.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/world/place_settings.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "engine/world/place_settings.h"
 
 namespace pedicel::world {
 

@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "pedicel/core/parameter.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/world/scene.h"
+#include "engine/core/parameter.h"
+#include "engine/io/yaml.h"
+#include "engine/world/scene.h"
 
 namespace pedicel::world {
 

@@ -1,4 +1,4 @@
-#include "pedicel/world/sim_world.h"
+#include "engine/world/sim_world.h"
 
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
@@ -7,10 +7,10 @@
 
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/timer.h"
-#include "pedicel/robot/bullet_types.h"
-#include "pedicel/world/rigid_shape.h"
+#include "engine/core/check.h"
+#include "engine/core/timer.h"
+#include "engine/robot/bullet_types.h"
+#include "engine/world/rigid_shape.h"
 
 namespace pedicel::world {
 

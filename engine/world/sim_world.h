@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/core/parameter.h"
-#include "pedicel/core/state_hash.h"
-#include "pedicel/world/bodies.h"
-#include "pedicel/world/step.h"
+#include "engine/core/frames.h"
+#include "engine/core/parameter.h"
+#include "engine/core/state_hash.h"
+#include "engine/world/bodies.h"
+#include "engine/world/step.h"
 
 class btMultiBodyDynamicsWorld;
 

@@ -1,4 +1,4 @@
-#include "pedicel/world/step.h"
+#include "engine/world/step.h"
 
 #include <numeric>
 

@@ -1,11 +1,11 @@
-#include "pedicel/world/variation.h"
+#include "engine/world/variation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/world/scene_sections.h"
+#include "engine/core/random.h"
+#include "engine/io/csv.h"
+#include "engine/world/scene_sections.h"
 
 namespace pedicel::world {
 

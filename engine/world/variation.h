@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::io {
 class YamlNode;

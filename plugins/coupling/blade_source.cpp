@@ -1,12 +1,12 @@
-#include "pedicel/coupling/blade_source.h"
+#include "plugins/coupling/blade_source.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/coupling/nearest_place.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "plugins/coupling/nearest_place.h"
 
 namespace pedicel::coupling {
 

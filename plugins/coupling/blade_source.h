@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact.h"
-#include "pedicel/coupling/collider.h"
-#include "pedicel/coupling/coupling_settings.h"
+#include "plugins/cosserat/contact/contact.h"
+#include "plugins/coupling/collider.h"
+#include "plugins/coupling/coupling_settings.h"
 
 namespace pedicel::coupling {
 

@@ -1,8 +1,8 @@
-#include "pedicel/coupling/collider.h"
+#include "plugins/coupling/collider.h"
 
 #include <cmath>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::coupling {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact_drive.h"
-#include "pedicel/geometry/aabb.h"
-#include "pedicel/geometry/signed_distance.h"
+#include "engine/geometry/aabb.h"
+#include "engine/geometry/signed_distance.h"
+#include "plugins/cosserat/contact/contact_drive.h"
 
 namespace pedicel::coupling {
 

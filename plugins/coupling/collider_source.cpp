@@ -1,11 +1,11 @@
-#include "pedicel/coupling/collider_source.h"
+#include "plugins/coupling/collider_source.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/model/rotation.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/model/rotation.h"
 
 namespace pedicel::coupling {
 
@@ -29,10 +29,8 @@ std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, cons
   return ignore_touching(model, state, [&](int, int one) { return one == collider; });
 }
 
-// A pair is left out for good and not until it has parted: a stem in the ground parts and meets
-// with every sway, and would be thrown out of it.
-std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, const RodState& state,
-                                                     const std::function<bool(int, int)>& asked) {
+std::vector<Overlap> ColliderSource::overlaps(const RodModel& model, const RodState& state,
+                                              double margin) {
   // A step without motion, so that nothing is found by its way.
   begin_step(model, state, 0.0);
   std::vector<ContactPoint> found;
@@ -42,8 +40,7 @@ std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, cons
   std::map<std::pair<int, int>, Overlap> overlaps;
   for (const ContactPoint& point : found) {
     // What is nearer than the margin pushes already, and would be pushed away at the start.
-    if (point.gap > settings_.margin) continue;
-    if (!asked(point.shape, point.collider)) continue;
+    if (point.gap > margin) continue;
     Overlap& overlap =
         overlaps.try_emplace({point.shape, point.collider}, Overlap{0, 0, -point.gap})
             .first->second;
@@ -56,10 +53,18 @@ std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, cons
     overlap.is_ignored |= placement(point.collider).drive < 0 || is_deep;
   }
   std::vector<Overlap> all;
-  for (const auto& [pair, overlap] : overlaps) {
-    all.push_back(overlap);
-    if (overlap.is_ignored) ignored_.push_back(pair);
-  }
+  for (const auto& [pair, overlap] : overlaps) all.push_back(overlap);
+  return all;
+}
+
+// A pair is left out for good and not until it has parted: a stem in the ground parts and meets
+// with every sway, and would be thrown out of it.
+std::vector<Overlap> ColliderSource::ignore_touching(const RodModel& model, const RodState& state,
+                                                     const std::function<bool(int, int)>& asked) {
+  std::vector<Overlap> all = overlaps(model, state, settings_.margin);
+  std::erase_if(all, [&](const Overlap& one) { return !asked(one.shape, one.collider); });
+  for (const Overlap& one : all)
+    if (one.is_ignored) ignored_.emplace_back(one.shape, one.collider);
   // Sorted for the binary search: the question is asked for each pair in each iteration.
   std::sort(ignored_.begin(), ignored_.end());
   return all;
@@ -141,6 +146,7 @@ void ColliderSource::find(const RodModel& model, const RodState& state, double d
   // one only.
   choose_colliders();
   if (near_.empty()) return;
+  const std::size_t first = found.size();
   for (const ElementChunks::Chunk& chunk : chunks_.chunks()) {
     choose_for(chunk);
     if (chunk_near_.empty()) continue;
@@ -152,6 +158,44 @@ void ColliderSource::find(const RodModel& model, const RodState& state, double d
         if (shape.way_W.intersects(placement(collider).box_W) && !is_ignored(shape.index, collider))
           touch(model, shape, collider, found);
     }
+  }
+  if (shares_) share_stiffness(model, std::span(found).subspan(first));
+}
+
+namespace {
+
+// N/m. What is harder touches two segments at once only within a few tenths of a millimetre of the
+// node between them.
+constexpr double soft = 1.0e5;
+
+// m: nobody is pushed by less.
+double overlap_of(const ContactPoint& point) {
+  return std::max(0.0, point.margin - point.gap);
+}
+
+bool are_neighbours(const RodModel& model, const ContactPoint& one, const ContactPoint& other) {
+  if (one.collider != other.collider) return false;
+  const int a = model.shapes[one.shape].element, b = model.shapes[other.shape].element;
+  return model.elements[a].parent == b || model.elements[b].parent == a;
+}
+
+}  // namespace
+
+void ColliderSource::share_stiffness(const RodModel& model, std::span<ContactPoint> points) const {
+  if (settings_.contact_stiffness >= soft) return;
+  for (ContactPoint& one : points) {
+    const double own = overlap_of(one);
+    if (own == 0.0 || one.stiffness >= soft || model.shapes[one.shape].fruit >= 0) continue;
+    if (placement(one.collider).drive >= 0) continue;
+    double deepest = own, sum = own;
+    for (const ContactPoint& other : points) {
+      if (&other == &one || model.shapes[other.shape].fruit >= 0) continue;
+      if (!are_neighbours(model, one, other)) continue;
+      const double overlap = overlap_of(other);
+      deepest = std::max(deepest, overlap);
+      sum += std::pow(overlap / own, 4) * overlap;
+    }
+    one.stiffness *= deepest / sum;
   }
 }
 

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact.h"
-#include "pedicel/coupling/collider.h"
-#include "pedicel/coupling/coupling_settings.h"
-#include "pedicel/coupling/element_chunks.h"
-#include "pedicel/coupling/nearest_place.h"
+#include "plugins/cosserat/contact/contact.h"
+#include "plugins/coupling/collider.h"
+#include "plugins/coupling/coupling_settings.h"
+#include "plugins/coupling/element_chunks.h"
+#include "plugins/coupling/nearest_place.h"
 
 namespace pedicel::coupling {
 
@@ -37,6 +37,10 @@ class ColliderSource : public cosserat::ContactSource {
   /// Throws UsageError where a setting is out of its bounds.
   ColliderSource(const ColliderSet& colliders, const CouplingSettings& settings);
 
+  /// Every pair that overlaps, or is nearer than `margin` (m), in this state, once each. Nothing is
+  /// left out for it.
+  std::vector<Overlap> overlaps(const cosserat::RodModel& model, const cosserat::RodState& state,
+                                double margin);
   /// Leaves out for good every pair that overlaps, or is nearer than the margin, in this state: a
   /// stem stands in the ground, a trellis wire runs through it. What a drive presses is left out
   /// only where the shape's axis lies inside. Adds to what is left out already. Returns all these
@@ -50,6 +54,15 @@ class ColliderSource : public cosserat::ContactSource {
   std::vector<Overlap> ignore_touching(const cosserat::RodModel& model,
                                        const cosserat::RodState& state,
                                        const std::function<bool(int, int)>& asked);
+
+  /// For a source that changes what this one finds: it shares the stiffness afterwards.
+  void share_later() { shares_ = false; }
+  /// A soft collider overlaps the segments beside the nearest one, too. Each would push with the
+  /// whole stiffness, and the finer the mesh, the harder the contact would be. So together they
+  /// push as the deepest alone would, shared out by their overlaps: most to the deepest, and alike
+  /// on both sides of a node. What a drive presses is borne along the stem as it is.
+  void share_stiffness(const cosserat::RodModel& model,
+                       std::span<cosserat::ContactPoint> points) const;
 
   /// Goes on with other settings; the margin stays. Throws UsageError where it is another.
   void change_settings(const CouplingSettings& settings);
@@ -109,6 +122,7 @@ class ColliderSource : public cosserat::ContactSource {
   std::vector<int> chunk_near_;                 // of them, those that may touch the chunk at hand
   std::vector<std::pair<int, int>> ignored_;    // (shape, collider), ascending
   double from_ = 0.0, to_ = 1.0;                // cover()
+  bool shares_ = true;                          // share_stiffness() as part of find()
   std::vector<cosserat::ContactDrive> drives_;  // of the step, or the part of it, at hand
   std::vector<cosserat::DrivenContact> driven_;
   std::vector<cosserat::DriveEnd> drive_ends_;

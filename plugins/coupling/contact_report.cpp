@@ -1,8 +1,8 @@
-#include "pedicel/coupling/contact_report.h"
+#include "plugins/coupling/contact_report.h"
 
 #include <algorithm>
 
-#include "pedicel/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/contact/self_contact.h"
 
 namespace pedicel::coupling {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact.h"
-#include "pedicel/coupling/collider.h"
+#include "plugins/cosserat/contact/contact.h"
+#include "plugins/coupling/collider.h"
 
 namespace pedicel::coupling {
 

@@ -1,4 +1,4 @@
-#include "pedicel/coupling/coupling_settings.h"
+#include "plugins/coupling/coupling_settings.h"
 
 namespace pedicel::coupling {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/parameter.h"
-#include "pedicel/cosserat/contact/self_contact.h"
+#include "engine/core/parameter.h"
+#include "plugins/cosserat/contact/self_contact_settings.h"
 
 namespace pedicel::coupling {
 

@@ -1,4 +1,4 @@
-#include "pedicel/coupling/element_chunks.h"
+#include "plugins/coupling/element_chunks.h"
 
 #include <algorithm>
 #include <numeric>

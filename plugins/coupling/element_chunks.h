@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/geometry/aabb.h"
+#include "engine/geometry/aabb.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel::coupling {
 

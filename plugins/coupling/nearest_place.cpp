@@ -1,4 +1,4 @@
-#include "pedicel/coupling/nearest_place.h"
+#include "plugins/coupling/nearest_place.h"
 
 #include <algorithm>
 #include <cmath>

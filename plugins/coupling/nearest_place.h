@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "pedicel/geometry/signed_distance.h"
+#include "engine/geometry/signed_distance.h"
 
 namespace pedicel::coupling {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/cosserat/model/turn_frame.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/yaml.h"
+#include "engine/io/yaml.h"
+#include "plugins/cosserat/model/turn_frame.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/effects_list/joint_terms.h"
-#include "pedicel/io/yaml.h"
+#include "engine/io/yaml.h"
+#include "plugins/cosserat/laws/joint_terms.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

@@ -1,6 +1,6 @@
 #include <numbers>
 
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

@@ -1,8 +1,8 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/effects_list/joint_terms.h"
+#include "plugins/cosserat/laws/joint_terms.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 
@@ -34,9 +34,9 @@ EffectDefinition define_clamp_play() {
                            for (int e = 0; e < t.model.size(); ++e) {
                              if (t.model.elements[e].parent >= 0) continue;
                              cosserat::JointLaw& law = t.model.laws[e];
-                             // By the list that the build makes of all formulas: a new law is
+                             // By the solver's list of all formulas: a new law is
                              // refused here without a line of its own.
-                             for (const JointTerm& term : joint_terms)
+                             for (const laws::JointTerm& term : laws::joint_terms)
                                if (law.terms_there() & term.bit) beside = term.effect;
                              // Sliders and dashpots carry moment within the play, and the root
                              // would not be free there.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/cosserat/model/joint_law.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/cosserat/model/joint_law.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

@@ -1,5 +1,5 @@
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

@@ -1,5 +1,5 @@
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/yaml.h"
+#include "engine/io/yaml.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

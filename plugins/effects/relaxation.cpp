@@ -1,4 +1,4 @@
-#include "pedicel/effects/decaying_moment.h"
+#include "plugins/effects/decaying_moment.h"
 
 namespace pedicel::effects {
 

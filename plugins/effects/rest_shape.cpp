@@ -1,8 +1,8 @@
 #include <vector>
 
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/yaml.h"
+#include "engine/io/yaml.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

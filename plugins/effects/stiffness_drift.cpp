@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

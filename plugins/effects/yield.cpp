@@ -1,8 +1,8 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/effects_list/joint_terms.h"
+#include "plugins/cosserat/laws/joint_terms.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 
@@ -27,9 +27,9 @@ EffectDefinition define_yield() {
         bool twice = false;
         std::string_view beside;  // a law that is elastic, too, and would have nothing left
         t.each_law([&](int e, cosserat::JointLaw& law) {
-          // By the build's own list of formulas. What is nonlinear and elastic would be inside the
+          // By the solver's own list of formulas. What is nonlinear and elastic would be inside the
           // slider, whose law is that of a linear spring.
-          for (const JointTerm& term : joint_terms)
+          for (const laws::JointTerm& term : laws::joint_terms)
             if (law.terms_there() & term.bit) beside = term.effect;
           for (const cosserat::JointBranch& branch : law.branches) twice = twice || branch.plastic;
           // Nothing elastic is left: all of it is in sliders and dashpots already.

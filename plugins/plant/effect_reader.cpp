@@ -1,4 +1,4 @@
-#include "pedicel/plant/effect_reader.h"
+#include "plugins/plant/effect_reader.h"
 
 #include <algorithm>
 

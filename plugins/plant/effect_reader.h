@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/described_map.h"
+#include "engine/io/described_map.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::plant {
 

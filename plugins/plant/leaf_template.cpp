@@ -1,12 +1,12 @@
-#include "pedicel/plant/leaf_template.h"
+#include "plugins/plant/leaf_template.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/plant/model/plant_model.h"
+#include "engine/core/check.h"
+#include "engine/io/yaml.h"
+#include "plugins/plant/model/plant_model.h"
 
 namespace pedicel::plant {
 

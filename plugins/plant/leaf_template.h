@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/cosserat/model/rod_model.h"
-#include "pedicel/plant/model/placed_point.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
+#include "plugins/cosserat/model/rod_model.h"
+#include "plugins/plant/model/placed_point.h"
 
 namespace pedicel::plant {
 

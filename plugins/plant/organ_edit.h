@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 /// Fruits, leaves, masses and supports of a plant as it is drawn; see plant_edit.h for what all
 /// edits have in common.

@@ -1,15 +1,15 @@
-#include "pedicel/plant/plant_builder.h"
+#include "plugins/plant/plant_builder.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/stop.h"
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/cosserat/solver/detachment.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/effects/registry/model_change.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/plant/plant_size.h"
+#include "engine/core/stop.h"
+#include "engine/io/csv.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "plugins/cosserat/solver/detachment.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/effects/registry/model_change.h"
+#include "plugins/plant/plant_size.h"
 
 namespace pedicel::plant {
 

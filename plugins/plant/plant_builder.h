@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_model.h"
-#include "pedicel/cosserat/solver/standing.h"
-#include "pedicel/plant/leaf_template.h"
-#include "pedicel/plant/model/rod_places.h"
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/plant/plant_graph.h"
+#include "plugins/cosserat/model/rod_model.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "plugins/plant/leaf_template.h"
+#include "plugins/plant/model/rod_places.h"
+#include "plugins/plant/plant_file.h"
+#include "plugins/plant/plant_graph.h"
 
 namespace pedicel::plant {
 

@@ -2,8 +2,8 @@
 #include <limits>
 #include <set>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/io/csv.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::plant {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/plant/plant_edit.h"
-#include "pedicel/plant/plant_edit_parts.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "plugins/plant/plant_edit.h"
+#include "plugins/plant/plant_edit_parts.h"
 
 namespace pedicel::plant {
 

@@ -1,13 +1,13 @@
-#include "pedicel/plant/plant_edit.h"
+#include "plugins/plant/plant_edit.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/plant/plant_edit_parts.h"
-#include "pedicel/plant/plant_graph.h"
-#include "pedicel/plant/point_kind.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "plugins/plant/plant_edit_parts.h"
+#include "plugins/plant/plant_graph.h"
+#include "plugins/plant/point_kind.h"
 
 namespace pedicel::plant {
 

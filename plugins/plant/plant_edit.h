@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "pedicel/geometry/curve.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/geometry/curve.h"
+#include "plugins/plant/plant_file.h"
 
 /// Changes of a plant as it is drawn. Points count from 0, places on a curve are fractions of its
 /// drawn length from its first point, everything is in the plant's frame P. What is impossible (a

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/plant/stem_tree.h"
+#include "plugins/plant/plant_file.h"
+#include "plugins/plant/stem_tree.h"
 
 /// What the edits of a plant share.
 namespace pedicel::plant {

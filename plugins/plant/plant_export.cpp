@@ -1,11 +1,11 @@
-#include "pedicel/plant/plant_export.h"
+#include "plugins/plant/plant_export.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/plant/plant_graph.h"
-#include "pedicel/plant/stem_tree.h"
+#include "engine/io/csv.h"
+#include "plugins/plant/plant_graph.h"
+#include "plugins/plant/stem_tree.h"
 
 namespace pedicel::plant {
 

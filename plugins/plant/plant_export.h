@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/core/frames.h"
+#include "plugins/plant/plant_file.h"
 
 /// A plant as it is drawn, for other programs. What cannot be said there (materials, thresholds) is
 /// left out.

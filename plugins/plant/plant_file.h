@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/plant/model/plant_model.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/plant/model/plant_model.h"
 
 namespace pedicel::plant {
 

@@ -1,9 +1,9 @@
-#include "pedicel/plant/plant_file_keys.h"
+#include "plugins/plant/plant_file_keys.h"
 
 #include <type_traits>
 
-#include "pedicel/plant/effect_reader.h"
-#include "pedicel/plant/model/plant_model.h"
+#include "plugins/plant/effect_reader.h"
+#include "plugins/plant/model/plant_model.h"
 
 namespace pedicel::plant {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/io/key.h"
+#include "engine/io/key.h"
 
 namespace pedicel::plant {
 

@@ -1,14 +1,14 @@
-#include "pedicel/plant/plant_graph.h"
+#include "plugins/plant/plant_graph.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "pedicel/core/stop.h"
-#include "pedicel/geometry/curve_distance.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/plant/point_grid.h"
+#include "engine/core/stop.h"
+#include "engine/geometry/curve_distance.h"
+#include "engine/io/csv.h"
+#include "plugins/plant/point_grid.h"
 
 namespace pedicel::plant {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/geometry/curve.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/core/diagnostics.h"
+#include "engine/geometry/curve.h"
+#include "plugins/plant/plant_file.h"
 
 /// The paper's authoring pipeline, stage by stage: curves -> samples -> one tree -> kept nodes.
 /// Everything is in the plant's own frame P, in metres.

@@ -1,4 +1,4 @@
-#include "pedicel/plant/plant_numbers.h"
+#include "plugins/plant/plant_numbers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <variant>
 
-#include "pedicel/io/bounds.h"
-#include "pedicel/plant/model/plant_model.h"
+#include "engine/io/bounds.h"
+#include "plugins/plant/model/plant_model.h"
 
 namespace pedicel::plant {
 

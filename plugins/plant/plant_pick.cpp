@@ -1,10 +1,10 @@
-#include "pedicel/plant/plant_pick.h"
+#include "plugins/plant/plant_pick.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "pedicel/geometry/closest_point.h"
-#include "pedicel/plant/plant_graph.h"
+#include "engine/geometry/closest_point.h"
+#include "plugins/plant/plant_graph.h"
 
 namespace pedicel::plant {
 

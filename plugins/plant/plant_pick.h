@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 /// What a stroke that begins here would hang on.
 namespace pedicel::plant {

@@ -1,8 +1,8 @@
-#include "pedicel/plant/plant_preview.h"
+#include "plugins/plant/plant_preview.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/plant/plant_graph.h"
-#include "pedicel/plant/stem_tree.h"
+#include "engine/core/check.h"
+#include "plugins/plant/plant_graph.h"
+#include "plugins/plant/stem_tree.h"
 
 namespace pedicel::plant {
 

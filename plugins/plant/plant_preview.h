@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::plant {
 

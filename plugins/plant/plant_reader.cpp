@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "pedicel/io/asset_folder.h"
-#include "pedicel/io/described_map.h"
-#include "pedicel/plant/effect_reader.h"
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/plant/plant_file_keys.h"
-#include "pedicel/plant/plant_size.h"
+#include "engine/io/asset_folder.h"
+#include "engine/io/described_map.h"
+#include "plugins/plant/effect_reader.h"
+#include "plugins/plant/plant_file.h"
+#include "plugins/plant/plant_file_keys.h"
+#include "plugins/plant/plant_size.h"
 
 namespace pedicel::plant {
 

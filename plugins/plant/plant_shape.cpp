@@ -1,4 +1,4 @@
-#include "pedicel/plant/plant_shape.h"
+#include "plugins/plant/plant_shape.h"
 
 #include <algorithm>
 

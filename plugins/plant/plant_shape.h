@@ -3,8 +3,8 @@
 #include <span>
 #include <string_view>
 
-#include "pedicel/io/bounds.h"
-#include "pedicel/plant/model/plant_model.h"
+#include "engine/io/bounds.h"
+#include "plugins/plant/model/plant_model.h"
 
 namespace pedicel::plant {
 

@@ -1,9 +1,9 @@
-#include "pedicel/plant/plant_size.h"
+#include "plugins/plant/plant_size.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::plant {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::plant {
 

@@ -1,8 +1,8 @@
 #include <type_traits>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/yaml_words.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/yaml_words.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::plant {
 

@@ -1,10 +1,10 @@
-#include "pedicel/plant/point_grid.h"
+#include "plugins/plant/point_grid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::plant {
 

@@ -1,11 +1,11 @@
-#include "pedicel/plant/point_kind.h"
+#include "plugins/plant/point_kind.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/plant/plant_edit.h"
-#include "pedicel/plant/plant_edit_parts.h"
+#include "engine/core/check.h"
+#include "plugins/plant/plant_edit.h"
+#include "plugins/plant/plant_edit_parts.h"
 
 namespace pedicel::plant {
 

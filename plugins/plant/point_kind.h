@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 /// Kinds of control points. The plant file knows none: a curve is smooth or linear as a whole. In a
 /// smooth curve a point becomes a corner by two more points close before and behind it that hold

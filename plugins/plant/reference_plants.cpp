@@ -1,4 +1,4 @@
-#include "pedicel/plant/reference_plants.h"
+#include "plugins/plant/reference_plants.h"
 
 #include <cmath>
 #include <string>

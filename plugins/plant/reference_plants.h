@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/cosserat/model/rod_model.h"
+#include "plugins/cosserat/model/rod_model.h"
 
 /// The plants on which Pedicel and its peers are measured: E 2e7 Pa, nu 0.3, 450 kg/m3, elements of
 /// 2 cm, no Kelvin-Voigt damping, unloaded as drawn. Element k of n of a rod whose radius goes from

@@ -1,4 +1,4 @@
-#include "pedicel/plant/spline_fit.h"
+#include "plugins/plant/spline_fit.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

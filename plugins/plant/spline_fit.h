@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::plant {
 

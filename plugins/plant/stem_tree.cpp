@@ -1,9 +1,9 @@
-#include "pedicel/plant/stem_tree.h"
+#include "plugins/plant/stem_tree.h"
 
 #include <limits>
 
-#include "pedicel/geometry/curve_distance.h"
-#include "pedicel/plant/plant_graph.h"
+#include "engine/geometry/curve_distance.h"
+#include "plugins/plant/plant_graph.h"
 
 namespace pedicel::plant {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::plant {
 

@@ -1,14 +1,14 @@
-#include "pedicel/plant/stroke_fit.h"
+#include "plugins/plant/stroke_fit.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/core/check.h"
-#include "pedicel/geometry/curve.h"
-#include "pedicel/geometry/curve_distance.h"
-#include "pedicel/plant/spline_fit.h"
+#include "engine/core/check.h"
+#include "engine/geometry/curve.h"
+#include "engine/geometry/curve_distance.h"
+#include "plugins/plant/spline_fit.h"
 
 namespace pedicel::plant {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 /// From a stroke of the hand to the control points of a curve.
 namespace pedicel::plant {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/skeleton/skeleton.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
+#include "plugins/skeleton/skeleton.h"
 
 /// A plant as Helios' plug-in plantarchitecture writes it (writePlantStructureXML): shoots made of
 /// phytomers, which say lengths, radii and angles. Angles are in degrees, as in the file; lengths

@@ -1,4 +1,4 @@
-#include "pedicel/skeleton/helios_reader.h"
+#include "plugins/skeleton/helios_reader.h"
 
 #include <tinyxml.h>
 
@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
-#include "pedicel/io/number_text.h"
-#include "pedicel/io/xml_text.h"
+#include "engine/io/number_text.h"
+#include "engine/io/xml_text.h"
 
 namespace pedicel::plant {
 

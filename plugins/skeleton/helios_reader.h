@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/skeleton/helios_plant.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/skeleton/helios_plant.h"
 
 namespace pedicel::plant {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "pedicel/skeleton/helios_plant.h"
+#include "plugins/skeleton/helios_plant.h"
 
 namespace pedicel::plant {
 

@@ -1,8 +1,8 @@
-#include "pedicel/skeleton/mtg_columns.h"
+#include "plugins/skeleton/mtg_columns.h"
 
 #include <algorithm>
 
-#include "pedicel/io/unit_text.h"
+#include "engine/io/unit_text.h"
 
 namespace pedicel::plant {
 

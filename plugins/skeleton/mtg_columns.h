@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/io/number_text.h"
-#include "pedicel/skeleton/text_cells.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
+#include "engine/io/number_text.h"
+#include "plugins/skeleton/text_cells.h"
 
 namespace pedicel::plant {
 

@@ -1,4 +1,4 @@
-#include "pedicel/skeleton/mtg_reader.h"
+#include "plugins/skeleton/mtg_reader.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,13 +6,13 @@
 #include <map>
 #include <string_view>
 
-#include "pedicel/io/number_text.h"
-#include "pedicel/io/table_dialect.h"
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/io/unit_text.h"
-#include "pedicel/skeleton/mtg_columns.h"
-#include "pedicel/skeleton/text_cells.h"
+#include "engine/io/number_text.h"
+#include "engine/io/table_dialect.h"
+#include "engine/io/table_text.h"
+#include "engine/io/text_file.h"
+#include "engine/io/unit_text.h"
+#include "plugins/skeleton/mtg_columns.h"
+#include "plugins/skeleton/text_cells.h"
 
 namespace pedicel::plant {
 

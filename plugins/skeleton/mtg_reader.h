@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/skeleton/skeleton.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/plant/plant_file.h"
+#include "plugins/skeleton/skeleton.h"
 
 /// Digitised plants: the multiscale tree graph of C. Godin and Y. Caraglio, J. Theor. Biol. 191
 /// (1998) 1-46, as the text that OpenAlea and AMAPmod write, and tables of nodes.

@@ -1,16 +1,16 @@
-#include "pedicel/skeleton/plant_source.h"
+#include "plugins/skeleton/plant_source.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/plant/plant_size.h"
-#include "pedicel/skeleton/helios_reader.h"
-#include "pedicel/skeleton/mtg_reader.h"
-#include "pedicel/skeleton/ply_reader.h"
-#include "pedicel/skeleton/skeleton_columns.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/table_text.h"
+#include "engine/io/text_file.h"
+#include "plugins/plant/plant_size.h"
+#include "plugins/skeleton/helios_reader.h"
+#include "plugins/skeleton/mtg_reader.h"
+#include "plugins/skeleton/ply_reader.h"
+#include "plugins/skeleton/skeleton_columns.h"
 
 namespace pedicel::plant {
 

@@ -1,4 +1,4 @@
-#include "pedicel/skeleton/ply_file.h"
+#include "plugins/skeleton/ply_file.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "pedicel/io/unit_text.h"
-#include "pedicel/skeleton/text_cells.h"
+#include "engine/io/unit_text.h"
+#include "plugins/skeleton/text_cells.h"
 
 namespace pedicel::plant {
 

@@ -1,15 +1,15 @@
-#include "pedicel/skeleton/ply_reader.h"
+#include "plugins/skeleton/ply_reader.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
-#include "pedicel/io/number_text.h"
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/unit_text.h"
-#include "pedicel/skeleton/ply_file.h"
-#include "pedicel/skeleton/skeleton_graph.h"
-#include "pedicel/skeleton/stated_unit.h"
+#include "engine/io/number_text.h"
+#include "engine/io/table_text.h"
+#include "engine/io/unit_text.h"
+#include "plugins/skeleton/ply_file.h"
+#include "plugins/skeleton/skeleton_graph.h"
+#include "plugins/skeleton/stated_unit.h"
 
 namespace pedicel::plant {
 

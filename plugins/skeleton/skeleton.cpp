@@ -1,8 +1,8 @@
-#include "pedicel/skeleton/skeleton.h"
+#include "plugins/skeleton/skeleton.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::plant {
 

@@ -1,11 +1,11 @@
-#include "pedicel/skeleton/skeleton_columns.h"
+#include "plugins/skeleton/skeleton_columns.h"
 
 #include <algorithm>
 #include <cctype>
 #include <optional>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/csv.h"
+#include "engine/io/unit_text.h"
 
 namespace pedicel::plant {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/table_text.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/table_text.h"
 
 namespace pedicel::plant {
 

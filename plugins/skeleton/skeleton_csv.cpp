@@ -2,13 +2,13 @@
 #include <charconv>
 #include <cmath>
 
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/io/unit_text.h"
-#include "pedicel/plant/point_grid.h"
-#include "pedicel/skeleton/mtg_reader.h"
-#include "pedicel/skeleton/skeleton_columns.h"
-#include "pedicel/skeleton/skeleton_tree.h"
+#include "engine/io/table_text.h"
+#include "engine/io/text_file.h"
+#include "engine/io/unit_text.h"
+#include "plugins/plant/point_grid.h"
+#include "plugins/skeleton/mtg_reader.h"
+#include "plugins/skeleton/skeleton_columns.h"
+#include "plugins/skeleton/skeleton_tree.h"
 
 namespace pedicel::plant {
 

@@ -1,4 +1,4 @@
-#include "pedicel/skeleton/skeleton_graph.h"
+#include "plugins/skeleton/skeleton_graph.h"
 
 #include <algorithm>
 #include <numeric>

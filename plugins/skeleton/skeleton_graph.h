@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/skeleton/skeleton.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/skeleton/skeleton.h"
 
 namespace pedicel::plant {
 

@@ -1,4 +1,4 @@
-#include "pedicel/skeleton/skeleton_tree.h"
+#include "plugins/skeleton/skeleton_tree.h"
 
 #include <unordered_map>
 

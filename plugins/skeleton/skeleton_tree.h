@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/skeleton/skeleton.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/skeleton/skeleton.h"
 
 namespace pedicel::plant {
 

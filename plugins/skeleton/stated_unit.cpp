@@ -1,8 +1,8 @@
-#include "pedicel/skeleton/stated_unit.h"
+#include "plugins/skeleton/stated_unit.h"
 
 #include <cmath>
 
-#include "pedicel/io/unit_text.h"
+#include "engine/io/unit_text.h"
 
 namespace pedicel::plant {
 

@@ -5,7 +5,7 @@
 // and one sweep at 5e-5 s +1.3 and +14 %.
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

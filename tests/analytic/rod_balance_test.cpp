@@ -1,7 +1,7 @@
 // Energy, momentum and angular momentum of undamped rods that swing or fly.
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

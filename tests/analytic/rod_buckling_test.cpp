@@ -8,8 +8,8 @@
 // about (pi / (4 n))^2 / 3 ~ 1e-3 with 20, so 3 % leaves room, and 0.5 % is what is asked here.
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
-#include "pedicel/cosserat/solver/standing.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

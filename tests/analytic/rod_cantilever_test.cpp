@@ -9,7 +9,7 @@
 // and no stretch; in the rods these add (r/L)^2 or about 1e-4 of the drop.
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

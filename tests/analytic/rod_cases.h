@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 /// What the rod tests share: straight rods, a solver with its state, and signals.
 namespace pedicel::cosserat::cases {

@@ -3,8 +3,8 @@
 // stand at equal distances from its middle (rod of 0.3 m, spheres at 0.25 and 0.75 of it).
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
-#include "analytic/sphere_source.h"
+#include "tests/analytic/rod_cases.h"
+#include "tests/analytic/sphere_source.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

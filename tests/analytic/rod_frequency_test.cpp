@@ -11,7 +11,7 @@
 // and backward Euler, 1 - 1/xi = z, gives w = i y (1 - y^2/3) - y^2/2: damping ratio y/2.
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

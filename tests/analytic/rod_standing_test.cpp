@@ -4,9 +4,9 @@
 // rounding alone gives about 1e-12 m).
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/solver/standing.h"
+#include "engine/core/random.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

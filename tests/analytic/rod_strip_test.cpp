@@ -15,8 +15,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "analytic/rod_cases.h"
-#include "pedicel/cosserat/solver/standing.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -5,8 +5,8 @@
 // (Blevins, Formulas for Natural Frequency and Mode Shape, section 8.3).
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
-#include "pedicel/cosserat/solver/rod_system.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -9,8 +9,8 @@
 // (Morse, Vibration and Sound, 2nd ed., section 16; m is the mass per metre).
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
-#include "pedicel/cosserat/solver/rod_system.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

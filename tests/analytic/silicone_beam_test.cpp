@@ -10,7 +10,7 @@
 // frequencies are judged without it.
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

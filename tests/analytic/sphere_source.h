@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact.h"
+#include "plugins/cosserat/contact/contact.h"
 
 namespace pedicel::cosserat::cases {
 

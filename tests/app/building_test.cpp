@@ -1,7 +1,7 @@
 // Scenes are built, changed, saved and left in the window as a person does it.
-#include "empty_desk.h"
-#include "pedicel/app/editors/thing_editor.h"
-#include "pedicel/app/session/session_files.h"
+#include "app/editors/thing_editor.h"
+#include "app/session/session_files.h"
+#include "tests/app/empty_desk.h"
 
 namespace pedicel::app {
 namespace {

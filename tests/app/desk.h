@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/window/desktop.h"
-#include "places.h"
+#include "app/session/session_files.h"
+#include "app/window/desktop.h"
+#include "tests/support/places.h"
 
 namespace pedicel::app {
 
@@ -125,7 +125,7 @@ class Desk {
 };
 
 inline std::filesystem::path scene_file(const std::string& name) {
-  return std::filesystem::path(PEDICEL_SOURCE_DIR) / "assets" / "scenes" / name;
+  return pedicel::test::source_folder() / "assets" / "scenes" / name;
 }
 
 /// A child window of a dock's tab: "left", "Plants".

@@ -1,9 +1,9 @@
 // Bars that are dragged: a press changes nothing, and a hand's width of two px little.
-#include "pedicel/app/ui/drag_bar.h"
+#include "app/ui/drag_bar.h"
 
-#include "desk.h"
-#include "pedicel/app/session/session_tuning.h"
-#include "words.h"
+#include "app/session/session_tuning.h"
+#include "tests/app/desk.h"
+#include "tests/app/words.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,9 +1,9 @@
 // Editing a drawn plant in the scene, by real input events off screen.
-#include "desk.h"
-#include "pedicel/app/editors/stem_editor.h"
-#include "pedicel/app/tools/radius_handles.h"
-#include "pedicel/plant/plant_edit.h"
-#include "pedicel/plant/point_kind.h"
+#include "app/editors/stem_editor.h"
+#include "app/tools/radius_handles.h"
+#include "plugins/plant/plant_edit.h"
+#include "plugins/plant/point_kind.h"
+#include "tests/app/desk.h"
 
 namespace pedicel::app {
 namespace {
@@ -174,7 +174,7 @@ TEST_F(Editing, ALeafIsDraggedAlongItsStem) {
   const auto& blades = snapshot->assets->plants[0].blades;
   ASSERT_FALSE(blades.empty());
   Vec3 on_leaf = Vec3::Zero();
-  for (const BladeCorner& corner : blades[blades.size() / 2])
+  for (const simulation::BladeCorner& corner : blades[blades.size() / 2])
     on_leaf += point_on(*plant_now.model, plant_now.state, corner.element, corner.back) / 3.0;
   const ImVec2 from = desk_.at(on_leaf);
   const ImVec2 low = desk_.at(Vec3(0, 0, 0.1)), high = desk_.at(Vec3(0, 0, 0.45 * 0.75));

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "desk.h"
-#include "support/temporary_folder.h"
-#include "words.h"
+#include "tests/app/desk.h"
+#include "tests/app/words.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::app {
 

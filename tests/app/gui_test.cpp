@@ -2,14 +2,14 @@
 #include <chrono>
 #include <thread>
 
-#include "desk.h"
-#include "pedicel/app/editors/stem_editor.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_tuning.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "places.h"
-#include "words.h"
+#include "app/editors/stem_editor.h"
+#include "app/session/session_files.h"
+#include "app/session/session_tuning.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "tests/app/desk.h"
+#include "tests/app/words.h"
+#include "tests/support/places.h"
 
 namespace pedicel::app {
 namespace {
@@ -253,9 +253,8 @@ TEST_F(Gui, AFileThatCannotBeReadIsShownAndRetried) {
   EXPECT_EQ(desk_.ui().dialog, Dialog::problem);
   EXPECT_THAT(desk_.ui().problem, HasSubstr("broken.plant.yaml:3"));
   EXPECT_FALSE(desk_.snapshot()->plants.empty()) << "what was open stays";
-  std::filesystem::copy_file(
-      std::filesystem::path(PEDICEL_SOURCE_DIR) / "plants" / "young_plant.plant.yaml", path,
-      std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(pedicel::test::source_folder() / "plants" / "young_plant.plant.yaml",
+                             path, std::filesystem::copy_options::overwrite_existing);
   desk_.key(Key::escape);
   desk_.key(Key::r, true);
   desk_.settle();
@@ -340,7 +339,7 @@ TEST_F(Gui, TwoFilmsOfTheSameRunAreTheSame) {
 TEST_F(Gui, ACameraThatFollowsGoesWithTheFruit) {
   const auto path = std::filesystem::path(::testing::TempDir()) / "follow.scene.yaml";
   std::string text = io::read_file(scene_file("cherry_tomato_pull_aside.scene.yaml"));
-  const std::string root = PEDICEL_SOURCE_DIR;
+  const std::string root = pedicel::test::source_folder();
   text.replace(text.find("../../plants"), 12, root + "/plants");
   text.replace(text.find("../robots"), 9, root + "/assets/robots");
   const std::size_t cameras = text.find("cameras:\n") + 9;
@@ -390,8 +389,7 @@ TEST_F(Gui, APlantIsImportedBesideTheOthers) {
   ASSERT_TRUE(button);
   desk_.click(button->x, button->y);
   ASSERT_EQ(desk_.ui().dialog, Dialog::import_plant);
-  desk_.type(
-      (std::filesystem::path(PEDICEL_SOURCE_DIR) / "plants" / "young_plant.plant.yaml").string());
+  desk_.type((pedicel::test::source_folder() / "plants" / "young_plant.plant.yaml").string());
   desk_.key(Key::enter);
   desk_.settle();
   EXPECT_EQ(desk_.ui().dialog, Dialog::none);

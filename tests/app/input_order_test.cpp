@@ -1,6 +1,6 @@
 // Keys that come and go between two pictures, as on a machine that draws ten a second: each does
 // what it was pressed for, in its order.
-#include "desk.h"
+#include "tests/app/desk.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,11 +1,11 @@
 // What the panels say of the chosen thing, of the world and of what happened, and what they do.
-#include "desk.h"
-#include "pedicel/app/editors/stem_editor.h"
-#include "pedicel/app/panels/time_line.h"
-#include "pedicel/app/session/session_robot.h"
-#include "pedicel/app/ui/selection_follow.h"
-#include "pedicel/io/atomic_file.h"
-#include "words.h"
+#include "app/editors/stem_editor.h"
+#include "app/panels/time_line.h"
+#include "app/session/session_robot.h"
+#include "app/ui/selection_follow.h"
+#include "engine/io/atomic_file.h"
+#include "tests/app/desk.h"
+#include "tests/app/words.h"
 
 namespace pedicel::app {
 namespace {

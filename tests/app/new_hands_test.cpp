@@ -1,10 +1,10 @@
 // What a person does who has read only the README: types and leaves fields, mistypes paths, adds
 // one thing after the other, asks for pictures and exports.
-#include "empty_desk.h"
-#include "pedicel/app/editors/add_menu.h"
-#include "pedicel/app/editors/thing_editor.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/editors/add_menu.h"
+#include "app/editors/thing_editor.h"
+#include "app/session/session_files.h"
+#include "engine/io/atomic_file.h"
+#include "tests/app/empty_desk.h"
 
 namespace pedicel::app {
 namespace {

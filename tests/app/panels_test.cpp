@@ -1,11 +1,11 @@
 // Every panel is drawn off screen in several windows, and must show something, and whole words.
 #include <map>
 
-#include "cut_text.h"
-#include "desk.h"
-#include "pedicel/app/editors/stem_editor.h"
-#include "pedicel/app/editors/tie_editor.h"
-#include "pedicel/app/ui/theme.h"
+#include "app/editors/stem_editor.h"
+#include "app/editors/tie_editor.h"
+#include "app/ui/theme.h"
+#include "tests/app/cut_text.h"
+#include "tests/app/desk.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/app/view/picking.h"
+#include "app/view/picking.h"
 
 #include <gtest/gtest.h>
 

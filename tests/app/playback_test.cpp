@@ -3,8 +3,8 @@
 
 #include <cstdlib>
 
-#include "pedicel/app/window/playback_window.h"
-#include "unit/logs/logged_run.h"
+#include "app/window/playback_window.h"
+#include "tests/unit/logs/logged_run.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,13 +1,13 @@
 // Plots: their numbers, and the mouse in them by real input events off screen.
-#include "pedicel/app/ui/plot.h"
+#include "app/ui/plot.h"
 
 #include <algorithm>
 #include <charconv>
 #include <fstream>
 
-#include "desk.h"
-#include "pedicel/io/csv.h"
-#include "words.h"
+#include "engine/io/csv.h"
+#include "tests/app/desk.h"
+#include "tests/app/words.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,8 +1,8 @@
 // What is chosen stays the same thing, whatever happens to its number.
-#include "desk.h"
-#include "pedicel/app/editors/stem_editor.h"
-#include "pedicel/app/ui/selection_follow.h"
-#include "pedicel/plant/plant_edit.h"
+#include "app/editors/stem_editor.h"
+#include "app/ui/selection_follow.h"
+#include "plugins/plant/plant_edit.h"
+#include "tests/app/desk.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,6 +1,6 @@
 // What does not change is not drawn again; what is thin stays a line at the coarsest quality.
-#include "desk.h"
-#include "pedicel/app/view/list_key.h"
+#include "app/view/list_key.h"
+#include "tests/app/desk.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,7 +1,7 @@
 // The whole story off screen: a stem and a branch are drawn, a fruit is put on, pulled off, and all
 // of it is undone, saved and read again.
-#include "desk.h"
-#include "pedicel/app/session/session_files.h"
+#include "app/session/session_files.h"
+#include "tests/app/desk.h"
 
 namespace pedicel::app {
 namespace {

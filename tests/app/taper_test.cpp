@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "pedicel/app/tools/drawn_shape.h"
+#include "app/tools/drawn_shape.h"
 
 namespace pedicel::app {
 namespace {

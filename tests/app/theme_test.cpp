@@ -1,4 +1,4 @@
-#include "pedicel/app/ui/theme.h"
+#include "app/ui/theme.h"
 
 #include <gtest/gtest.h>
 

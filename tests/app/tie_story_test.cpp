@@ -1,7 +1,7 @@
 // The story of a string: a wire and a stem are there, a string is dragged from one to the other,
 // made shorter in numbers, pulls, is saved with the scene, read again and taken away.
-#include "empty_desk.h"
-#include "pedicel/app/editors/tie_editor.h"
+#include "app/editors/tie_editor.h"
+#include "tests/app/empty_desk.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,11 +1,11 @@
 // The robot's tool dragged by its handles with a real mouse, the ghost of its goal, its programs.
 #include <fstream>
 
-#include "cut_text.h"
-#include "desk.h"
-#include "pedicel/app/session/session_robot.h"
-#include "support/temporary_folder.h"
-#include "words.h"
+#include "app/session/session_robot.h"
+#include "tests/app/cut_text.h"
+#include "tests/app/desk.h"
+#include "tests/app/words.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::app {
 namespace {

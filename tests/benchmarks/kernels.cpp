@@ -4,17 +4,17 @@
 
 #include <stdexcept>
 
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/solver/block_system.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/cosserat/solver/standing.h"
-#include "pedicel/geometry/grid_distance.h"
-#include "pedicel/geometry/primitives_mesh.h"
-#include "pedicel/geometry/shapes.h"
-#include "pedicel/plant/plant_builder.h"
-#include "pedicel/plant/reference_plants.h"
-#include "places.h"
+#include "engine/core/random.h"
+#include "engine/geometry/grid_distance.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "engine/geometry/shapes.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/solver/block_system.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "plugins/plant/plant_builder.h"
+#include "plugins/plant/reference_plants.h"
+#include "tests/support/places.h"
 
 namespace pedicel {
 
@@ -138,11 +138,11 @@ BENCHMARK(grid_query)->Unit(benchmark::kMicrosecond);
 /// From the drawn curves of a shipped plant to its rods.
 void plant_build(benchmark::State& state) {
   Diagnostics diagnostics;
-  const auto file =
-      plant::read_plant_file(PEDICEL_SOURCE_DIR "/plants/cherry_tomato.plant.yaml", diagnostics);
+  const auto file = plant::read_plant_file(
+      pedicel::test::source_folder() / "plants/cherry_tomato.plant.yaml", diagnostics);
   if (!file) throw InvalidFile(diagnostics);
   plant::BuildOptions options;
-  options.leaf_folders = {PEDICEL_SOURCE_DIR "/assets/leaves"};
+  options.leaf_folders = {pedicel::test::source_folder() / "assets/leaves"};
   int elements = 0;
   for (auto _ : state) {
     const auto built = plant::build_plant(*file, options, diagnostics);

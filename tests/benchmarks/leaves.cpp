@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/plant/plant_builder.h"
-#include "places.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/support/places.h"
 
 namespace pedicel {
 
@@ -18,8 +18,8 @@ const Vec3 apart(0.3, 0, 0);  // m, as in assets/scenes/tomato_row.scene.yaml
 
 plant::PlantFile tomato_file() {
   Diagnostics diagnostics;
-  auto file =
-      plant::read_plant_file(PEDICEL_SOURCE_DIR "/plants/row_tomato.plant.yaml", diagnostics);
+  auto file = plant::read_plant_file(
+      pedicel::test::source_folder() / "plants/row_tomato.plant.yaml", diagnostics);
   if (!file) throw InvalidFile(diagnostics);
   return *file;
 }
@@ -28,7 +28,7 @@ cosserat::RodModel tomato(const plant::PlantFile& file, const Vec3& place) {
   Diagnostics diagnostics;
   plant::BuildOptions options;
   options.pose.position = place;
-  options.leaf_folders = {PEDICEL_SOURCE_DIR "/assets/leaves"};
+  options.leaf_folders = {pedicel::test::source_folder() / "assets/leaves"};
   auto built = plant::build_plant(file, options, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
   return std::move(built->model);

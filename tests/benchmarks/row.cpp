@@ -11,10 +11,10 @@
 #include <fstream>
 #include <numbers>
 
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/cosserat/solver/standing.h"
-#include "pedicel/plant/plant_builder.h"
-#include "places.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/support/places.h"
 
 namespace pedicel {
 
@@ -30,12 +30,12 @@ Vec3 weight_at(double time) {
 
 cosserat::RodModel tomato(double x) {
   Diagnostics diagnostics;
-  const auto file =
-      plant::read_plant_file(PEDICEL_SOURCE_DIR "/plants/row_tomato.plant.yaml", diagnostics);
+  const auto file = plant::read_plant_file(
+      pedicel::test::source_folder() / "plants/row_tomato.plant.yaml", diagnostics);
   if (!file) throw InvalidFile(diagnostics);
   plant::BuildOptions options;
   options.pose.position = Vec3(x, 0, 0);
-  options.leaf_folders = {PEDICEL_SOURCE_DIR "/assets/leaves"};
+  options.leaf_folders = {pedicel::test::source_folder() / "assets/leaves"};
   auto built = plant::build_plant(*file, options, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
   return std::move(built->model);

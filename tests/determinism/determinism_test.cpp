@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/world/scene_reader.h"
-#include "scenes/shipped_scenes.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/simulation/simulation.h"
+#include "tests/scenes/shipped_scenes.h"
 
 namespace pedicel {
 namespace {
@@ -24,7 +24,7 @@ class Determinism : public ::testing::TestWithParam<std::filesystem::path> {
 TEST_P(Determinism, TwoWorldsInTurnsWithOneAndTwoThreadsGiveTheSameBits) {
   world::Scene threaded = *scene_;
   threaded.threads = 2;
-  app::Simulation first(*scene_, {}), second(threaded, {});
+  simulation::Simulation first(*scene_, {}), second(threaded, {});
   EXPECT_EQ(first.state_hash(), second.state_hash());
   const std::uint64_t before = first.state_hash();
   const long steps = std::lround(scene_->duration / scene_->dt);

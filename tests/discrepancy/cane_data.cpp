@@ -1,11 +1,11 @@
-#include "discrepancy/cane_data.h"
+#include "tests/discrepancy/cane_data.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::discrepancy::testing {
 

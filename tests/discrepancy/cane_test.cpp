@@ -10,18 +10,17 @@
 #include <map>
 #include <string>
 
-#include "discrepancy/cane_data.h"
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/fit/fit.h"
-#include "places.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/fit/fit.h"
+#include "tests/discrepancy/cane_data.h"
+#include "tests/support/places.h"
 
 namespace pedicel::discrepancy {
 namespace {
 
 using testing::CanePush;
 
-const std::filesystem::path folder =
-    std::filesystem::path(PEDICEL_SHARED_DIR) / "data/blueberry_canes";
+const std::filesystem::path folder = pedicel::test::shared_folder() / "data/blueberry_canes";
 
 FitSummary fitted(Evaluator& evaluator, const std::vector<Hypothesis>& starts, int trials) {
   FitOptions options;

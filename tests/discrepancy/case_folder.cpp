@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "discrepancy/hidden_case.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "tests/discrepancy/hidden_case.h"
 
 namespace pedicel::hidden {
 

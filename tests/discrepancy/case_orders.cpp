@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discrepancy/hidden_case.h"
+#include "tests/discrepancy/hidden_case.h"
 
 namespace pedicel::hidden {
 

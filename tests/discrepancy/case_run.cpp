@@ -1,12 +1,12 @@
-#include "discrepancy/case_run.h"
+#include "tests/discrepancy/case_run.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/select/evidence.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/select/evidence.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::hidden {
 

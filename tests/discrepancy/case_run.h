@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "discrepancy/scoring.h"
+#include "tests/discrepancy/scoring.h"
 
 namespace pedicel::hidden {
 

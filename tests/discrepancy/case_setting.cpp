@@ -1,4 +1,4 @@
-#include "discrepancy/case_setting.h"
+#include "tests/discrepancy/case_setting.h"
 
 #include <cmath>
 

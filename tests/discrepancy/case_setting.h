@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/reference_trial.h"
-#include "pedicel/core/random.h"
+#include "engine/core/random.h"
+#include "tests/discrepancy/reference_trial.h"
 
 namespace pedicel::hidden {
 

@@ -1,4 +1,4 @@
-#include "discrepancy/cause_size.h"
+#include "tests/discrepancy/cause_size.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/plant/plant_file.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::hidden {
 

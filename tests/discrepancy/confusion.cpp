@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <map>
 
-#include "discrepancy/score_table.h"
+#include "tests/discrepancy/score_table.h"
 
 namespace pedicel::hidden {
 

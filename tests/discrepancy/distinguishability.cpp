@@ -1,4 +1,4 @@
-#include "discrepancy/distinguishability.h"
+#include "tests/discrepancy/distinguishability.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "discrepancy/identifiability.h"
-#include "discrepancy/other_causes.h"
+#include "tests/discrepancy/identifiability.h"
+#include "tests/discrepancy/other_causes.h"
 
 namespace pedicel::hidden {
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/case_run.h"
-#include "support/temporary_folder.h"
+#include "tests/discrepancy/case_run.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::hidden {
 

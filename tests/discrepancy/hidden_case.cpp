@@ -1,4 +1,4 @@
-#include "discrepancy/hidden_case.h"
+#include "tests/discrepancy/hidden_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "discrepancy/sensor_noise.h"
+#include "tests/discrepancy/sensor_noise.h"
 
 namespace pedicel::hidden {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/distinguishability.h"
-#include "discrepancy/hidden_effect.h"
+#include "tests/discrepancy/distinguishability.h"
+#include "tests/discrepancy/hidden_effect.h"
 
 namespace pedicel::hidden {
 

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "discrepancy/hidden_case.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
+#include "tests/discrepancy/hidden_case.h"
 
 namespace {
 

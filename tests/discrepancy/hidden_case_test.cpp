@@ -1,16 +1,16 @@
 // The hidden cases themselves: the list, the same bits from the same seed, sizes in units of the
 // smallest identifiable one, look-alikes that no data of theirs tell apart, and what is written.
-#include "discrepancy/hidden_case.h"
+#include "tests/discrepancy/hidden_case.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/plant/effect_reader.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "plugins/plant/effect_reader.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::hidden {
 namespace {

@@ -1,4 +1,4 @@
-#include "discrepancy/hidden_effect.h"
+#include "tests/discrepancy/hidden_effect.h"
 
 #include <algorithm>
 #include <cmath>

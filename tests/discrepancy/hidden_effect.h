@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/case_setting.h"
+#include "tests/discrepancy/case_setting.h"
 
 namespace pedicel::hidden {
 

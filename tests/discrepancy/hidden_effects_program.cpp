@@ -12,15 +12,15 @@
 #include <set>
 #include <thread>
 
-#include "discrepancy/case_run.h"
-#include "discrepancy/score_report.h"
-#include "discrepancy/score_table.h"
-#include "pedicel/cluster/campaign.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/cosserat/lanes/instruction_set.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/cluster/campaign.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/core/thread_pool.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/cosserat/lanes/instruction_set.h"
+#include "tests/discrepancy/case_run.h"
+#include "tests/discrepancy/score_report.h"
+#include "tests/discrepancy/score_table.h"
 
 namespace {
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/report/report.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/report/report.h"
+#include "plugins/discrepancy/simulate/simulator.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "discrepancy/resimulated.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/plant/effect_reader.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/yaml.h"
+#include "plugins/plant/effect_reader.h"
+#include "tests/discrepancy/resimulated.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "discrepancy/identifiability.h"
+#include "tests/discrepancy/identifiability.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "discrepancy/reference_trial.h"
+#include "tests/discrepancy/reference_trial.h"
 
 namespace pedicel::hidden {
 

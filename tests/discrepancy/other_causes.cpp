@@ -1,4 +1,4 @@
-#include "discrepancy/other_causes.h"
+#include "tests/discrepancy/other_causes.h"
 
 #include <algorithm>
 #include <cmath>

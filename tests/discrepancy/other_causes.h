@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/hidden_effect.h"
+#include "tests/discrepancy/hidden_effect.h"
 
 namespace pedicel::hidden {
 

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "pedicel/discrepancy/pick/pick_labels.h"
-#include "places.h"
+#include "plugins/discrepancy/pick/pick_labels.h"
+#include "tests/support/places.h"
 
 namespace pedicel::discrepancy {
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(PEDICEL_SHARED_DIR) / "data/apple_picks";
+const std::filesystem::path folder = pedicel::test::shared_folder() / "data/apple_picks";
 
 class PickData : public ::testing::Test {
  protected:

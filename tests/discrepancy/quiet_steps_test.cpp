@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "discrepancy/resimulated.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/report/report.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/report/report.h"
+#include "tests/discrepancy/resimulated.h"
 
 namespace pedicel::hidden {
 namespace {

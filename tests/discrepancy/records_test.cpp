@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "discrepancy/reference_trial.h"
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/data/path_smoothing.h"
-#include "pedicel/discrepancy/simulate/data_set.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/data/path_smoothing.h"
+#include "plugins/discrepancy/simulate/data_set.h"
+#include "tests/discrepancy/reference_trial.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

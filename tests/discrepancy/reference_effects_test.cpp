@@ -6,8 +6,8 @@
 #include <cmath>
 #include <complex>
 
-#include "discrepancy/reference_plants.h"
-#include "discrepancy/reference_trial.h"
+#include "tests/discrepancy/reference_plants.h"
+#include "tests/discrepancy/reference_trial.h"
 
 namespace pedicel::reference {
 namespace {

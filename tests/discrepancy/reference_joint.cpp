@@ -1,9 +1,9 @@
-#include "discrepancy/reference_joint.h"
+#include "tests/discrepancy/reference_joint.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "discrepancy/reference_rotation.h"
+#include "tests/discrepancy/reference_rotation.h"
 
 namespace pedicel::reference {
 

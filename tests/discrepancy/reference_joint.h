@@ -1,6 +1,6 @@
 #pragma once
 
-#include "discrepancy/reference_tree.h"
+#include "tests/discrepancy/reference_tree.h"
 
 namespace pedicel::reference {
 

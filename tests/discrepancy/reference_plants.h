@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::reference {
 

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "discrepancy/hidden_case.h"
-#include "discrepancy/reference_plants.h"
-#include "pedicel/discrepancy/data/experiment.h"
-#include "support/temporary_folder.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "tests/discrepancy/hidden_case.h"
+#include "tests/discrepancy/reference_plants.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::reference {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 /// Rotation vectors, written anew for the reference simulator.
 namespace pedicel::reference {

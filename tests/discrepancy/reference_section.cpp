@@ -1,4 +1,4 @@
-#include "discrepancy/reference_section.h"
+#include "tests/discrepancy/reference_section.h"
 
 #include <cmath>
 

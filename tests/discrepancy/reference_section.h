@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/core/frames.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/core/frames.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::reference {
 

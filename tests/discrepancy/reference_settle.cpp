@@ -1,8 +1,8 @@
 #include <Eigen/Dense>
 #include <deque>
 
-#include "discrepancy/reference_rotation.h"
-#include "discrepancy/reference_solver.h"
+#include "tests/discrepancy/reference_rotation.h"
+#include "tests/discrepancy/reference_solver.h"
 
 namespace pedicel::reference {
 

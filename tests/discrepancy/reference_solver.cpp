@@ -1,10 +1,10 @@
-#include "discrepancy/reference_solver.h"
+#include "tests/discrepancy/reference_solver.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "discrepancy/reference_rotation.h"
+#include "tests/discrepancy/reference_rotation.h"
 
 namespace pedicel::reference {
 

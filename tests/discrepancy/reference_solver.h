@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "discrepancy/reference_joint.h"
-#include "discrepancy/reference_tree.h"
+#include "tests/discrepancy/reference_joint.h"
+#include "tests/discrepancy/reference_tree.h"
 
 namespace pedicel::reference {
 

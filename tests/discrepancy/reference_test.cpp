@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "discrepancy/case_setting.h"
-#include "discrepancy/reference_plants.h"
-#include "discrepancy/reference_trial.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/plant/plant_builder.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/discrepancy/case_setting.h"
+#include "tests/discrepancy/reference_plants.h"
+#include "tests/discrepancy/reference_trial.h"
 
 namespace pedicel::reference {
 namespace {

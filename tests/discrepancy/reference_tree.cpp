@@ -1,13 +1,13 @@
-#include "discrepancy/reference_tree.h"
+#include "tests/discrepancy/reference_tree.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
-#include "discrepancy/reference_rotation.h"
-#include "discrepancy/reference_section.h"
-#include "pedicel/geometry/curve.h"
+#include "engine/geometry/curve.h"
+#include "tests/discrepancy/reference_rotation.h"
+#include "tests/discrepancy/reference_section.h"
 
 namespace pedicel::reference {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/core/frames.h"
+#include "plugins/plant/plant_file.h"
 
 /// A simulator of plants that shares nothing with the rods of the program but the plant file: joint
 /// angles instead of positions, no stretch and no shear, articulated-body elimination instead of a

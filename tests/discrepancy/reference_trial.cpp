@@ -1,11 +1,11 @@
-#include "discrepancy/reference_trial.h"
+#include "tests/discrepancy/reference_trial.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 
-#include "discrepancy/reference_rotation.h"
+#include "tests/discrepancy/reference_rotation.h"
 
 namespace pedicel::reference {
 

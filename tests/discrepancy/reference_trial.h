@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/reference_solver.h"
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
+#include "tests/discrepancy/reference_solver.h"
 
 namespace pedicel::reference {
 

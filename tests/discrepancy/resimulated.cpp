@@ -1,9 +1,9 @@
-#include "discrepancy/resimulated.h"
+#include "tests/discrepancy/resimulated.h"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "discrepancy/sensor_noise.h"
+#include "tests/discrepancy/sensor_noise.h"
 
 namespace pedicel::hidden {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "discrepancy/reference_trial.h"
-#include "pedicel/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "tests/discrepancy/reference_trial.h"
 
 namespace pedicel::hidden {
 

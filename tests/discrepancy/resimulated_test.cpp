@@ -1,9 +1,9 @@
 // Trials done again with something hidden in the plant: what is hidden shows, the rest stays.
-#include "discrepancy/resimulated.h"
+#include "tests/discrepancy/resimulated.h"
 
 #include <gtest/gtest.h>
 
-#include "discrepancy/reference_plants.h"
+#include "tests/discrepancy/reference_plants.h"
 
 namespace pedicel::hidden {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
-#include "places.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "tests/support/places.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -13,7 +13,7 @@ class ScenePractice : public ::testing::Test {
  protected:
   SceneDiagnosis diagnose(const std::string& name) {
     const std::filesystem::path folder =
-        std::filesystem::path(PEDICEL_SHARED_DIR) / "data/scene_practice" / name;
+        pedicel::test::shared_folder() / "data/scene_practice" / name;
     if (!std::filesystem::exists(folder)) return {};
     Diagnostics diagnostics;
     const auto experiment = read_scene_experiment(folder, diagnostics);

@@ -1,4 +1,4 @@
-#include "discrepancy/score_report.h"
+#include "tests/discrepancy/score_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 #include <limits>
 #include <map>
 
-#include "discrepancy/score_table.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/html_report.h"
-#include "pedicel/plots/svg_heat_map.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "engine/io/html_report.h"
+#include "engine/plots/svg_heat_map.h"
+#include "tests/discrepancy/score_table.h"
 
 namespace pedicel::hidden {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "discrepancy/scoring.h"
+#include "tests/discrepancy/scoring.h"
 
 namespace pedicel::hidden {
 

@@ -1,4 +1,4 @@
-#include "discrepancy/score_table.h"
+#include "tests/discrepancy/score_table.h"
 
 #include <algorithm>
 #include <cmath>

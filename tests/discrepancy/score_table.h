@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/scoring.h"
+#include "tests/discrepancy/scoring.h"
 
 namespace pedicel::hidden {
 

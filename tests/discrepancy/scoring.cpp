@@ -1,4 +1,4 @@
-#include "discrepancy/scoring.h"
+#include "tests/discrepancy/scoring.h"
 
 #include <algorithm>
 #include <array>

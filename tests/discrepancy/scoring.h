@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/cause_size.h"
-#include "discrepancy/hidden_case.h"
-#include "pedicel/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "tests/discrepancy/cause_size.h"
+#include "tests/discrepancy/hidden_case.h"
 
 namespace pedicel::hidden {
 

@@ -1,6 +1,6 @@
 // What a verdict is worth, on verdicts made by hand: every call, sizes by what data can tell, the
 // share of the true model's gain, the bounds of the table, and files that a stop cut short.
-#include "discrepancy/scoring.h"
+#include "tests/discrepancy/scoring.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <limits>
 
-#include "discrepancy/score_report.h"
-#include "discrepancy/score_table.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "tests/discrepancy/score_report.h"
+#include "tests/discrepancy/score_table.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::hidden {
 namespace {

@@ -1,9 +1,9 @@
-#include "discrepancy/sensor_noise.h"
+#include "tests/discrepancy/sensor_noise.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::hidden {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Dense>
 
-#include "pedicel/core/random.h"
-#include "pedicel/plant/effect_reader.h"
+#include "engine/core/random.h"
+#include "plugins/plant/effect_reader.h"
 
 namespace pedicel::hidden {
 

@@ -11,16 +11,15 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
-#include "pedicel/discrepancy/test/oscillation.h"
-#include "places.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/simulate/simulator.h"
+#include "plugins/discrepancy/test/oscillation.h"
+#include "tests/support/places.h"
 
 namespace pedicel::discrepancy {
 namespace {
 
-const std::filesystem::path folder =
-    std::filesystem::path(PEDICEL_SHARED_DIR) / "data/silicone_beam";
+const std::filesystem::path folder = pedicel::test::shared_folder() / "data/silicone_beam";
 constexpr double after_release = 0.1, seconds = 1.6;  // the hand is gone; decays last that long
 constexpr double sample_time = 0.01;
 

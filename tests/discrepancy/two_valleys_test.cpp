@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/simulate/simulator.h"
 
 namespace pedicel::discrepancy {
 namespace {

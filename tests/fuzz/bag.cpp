@@ -1,9 +1,9 @@
 #include <sstream>
 
-#include "pedicel/ros_messages/ros1.h"
-#include "pedicel/ros_messages/sensor_messages.h"
-#include "pedicel/rosbag/reader.h"
-#include "reading.h"
+#include "engine/ros_messages/ros1.h"
+#include "engine/ros_messages/sensor_messages.h"
+#include "engine/rosbag/reader.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

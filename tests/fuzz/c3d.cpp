@@ -1,5 +1,5 @@
-#include "pedicel/discrepancy/import/recording_reader.h"
-#include "reading.h"
+#include "plugins/discrepancy/import/recording_reader.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

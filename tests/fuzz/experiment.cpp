@@ -1,6 +1,6 @@
-#include "pedicel/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
-#include "reading.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

@@ -1,5 +1,5 @@
-#include "pedicel/skeleton/helios_reader.h"
-#include "reading.h"
+#include "plugins/skeleton/helios_reader.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

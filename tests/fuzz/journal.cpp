@@ -1,9 +1,9 @@
-#include "pedicel/app/session/journal.h"
+#include "app/session/journal.h"
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/core/check.h"
-#include "reading.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/document/document.h"
+#include "engine/core/check.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

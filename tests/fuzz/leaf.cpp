@@ -1,5 +1,5 @@
-#include "pedicel/plant/leaf_template.h"
-#include "reading.h"
+#include "plugins/plant/leaf_template.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

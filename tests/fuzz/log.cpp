@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/log_import/log_map.h"
-#include "pedicel/discrepancy/log_import/log_proposal.h"
-#include "pedicel/discrepancy/log_import/log_tables.h"
-#include "pedicel/robot/kinematics.h"
-#include "pedicel/urdf/urdf_reader.h"
-#include "reading.h"
+#include "engine/robot/kinematics.h"
+#include "engine/urdf/urdf_reader.h"
+#include "plugins/discrepancy/log_import/log_map.h"
+#include "plugins/discrepancy/log_import/log_proposal.h"
+#include "plugins/discrepancy/log_import/log_tables.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

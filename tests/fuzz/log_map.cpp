@@ -1,6 +1,6 @@
-#include "pedicel/discrepancy/log_import/log_map.h"
+#include "plugins/discrepancy/log_import/log_map.h"
 
-#include "reading.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

@@ -1,7 +1,7 @@
 #include <sstream>
 
-#include "pedicel/mcap/reader.h"
-#include "reading.h"
+#include "engine/mcap/reader.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

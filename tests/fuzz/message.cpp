@@ -1,12 +1,12 @@
 #include <iterator>
 
-#include "pedicel/ros_messages/action_messages.h"
-#include "pedicel/ros_messages/cdr.h"
-#include "pedicel/ros_messages/control_messages.h"
-#include "pedicel/ros_messages/marker_messages.h"
-#include "pedicel/ros_messages/ros1.h"
-#include "pedicel/ros_messages/simulation_messages.h"
-#include "reading.h"
+#include "engine/ros_messages/action_messages.h"
+#include "engine/ros_messages/cdr.h"
+#include "engine/ros_messages/control_messages.h"
+#include "engine/ros_messages/marker_messages.h"
+#include "engine/ros_messages/ros1.h"
+#include "engine/ros_messages/simulation_messages.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

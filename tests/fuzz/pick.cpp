@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "pedicel/discrepancy/pick/pick_labels.h"
-#include "pedicel/discrepancy/pick/pick_text.h"
-#include "reading.h"
+#include "plugins/discrepancy/pick/pick_labels.h"
+#include "plugins/discrepancy/pick/pick_text.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

@@ -1,5 +1,5 @@
-#include "pedicel/plant/plant_builder.h"
-#include "reading.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

@@ -10,7 +10,7 @@
 #include <iostream>
 #include <string>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 /// What every fuzzer of a reader needs.
 namespace pedicel::fuzz {

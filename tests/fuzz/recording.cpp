@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/import/force_record.h"
-#include "pedicel/discrepancy/import/recording_reader.h"
-#include "pedicel/discrepancy/import/world_frame.h"
-#include "pedicel/discrepancy/import/world_tracks.h"
-#include "reading.h"
+#include "plugins/discrepancy/import/force_record.h"
+#include "plugins/discrepancy/import/recording_reader.h"
+#include "plugins/discrepancy/import/world_frame.h"
+#include "plugins/discrepancy/import/world_tracks.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

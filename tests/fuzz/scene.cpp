@@ -1,6 +1,6 @@
-#include "pedicel/io/yaml.h"
-#include "pedicel/world/scene_reader.h"
-#include "reading.h"
+#include "engine/io/yaml.h"
+#include "engine/world/scene_reader.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 #include <array>
 
-#include "pedicel/discrepancy/scene/scene_state.h"
-#include "reading.h"
+#include "plugins/discrepancy/scene/scene_state.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

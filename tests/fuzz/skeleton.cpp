@@ -1,5 +1,5 @@
-#include "pedicel/skeleton/mtg_reader.h"
-#include "reading.h"
+#include "plugins/skeleton/mtg_reader.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

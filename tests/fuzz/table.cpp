@@ -1,5 +1,5 @@
-#include "pedicel/io/csv.h"
-#include "reading.h"
+#include "engine/io/csv.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

@@ -1,5 +1,5 @@
-#include "pedicel/cluster/task_file.h"
-#include "reading.h"
+#include "engine/cluster/task_file.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

@@ -1,5 +1,5 @@
-#include "pedicel/urdf/urdf_reader.h"
-#include "reading.h"
+#include "engine/urdf/urdf_reader.h"
+#include "tests/fuzz/reading.h"
 
 using namespace pedicel;
 

@@ -27,6 +27,7 @@ class PlantEffects(unittest.TestCase):
             Path("plugins/effects/relaxation.cpp"): 'd.limits = {{"time", true, "creep"}};\n',
             other: '// "creep" in a comment\nif (name == "density") a = "creep and more";\nif (name == "creep") b();\n',
             Path("tests/unit/a_test.cpp"): 'effect("creep");\n',
+            Path("plugins/cosserat/laws/terms.h"): '{"creep", 1}\n',
         }
         said = "names the effect {}; expected a field of its definition"
         self.assertEqual(plant_effects.check(texts),

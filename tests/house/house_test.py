@@ -2,7 +2,6 @@
 """The checks of tools/house see what they are for: each is shown a made-up tree with one fault."""
 
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -10,70 +9,95 @@ sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from house_checks import circles, classes, effect_names, folders, names, source  # noqa: E402
-from prose_checks.rooms import rooms_of  # noqa: E402
+from house_checks import depth, effect_names, members, names, public  # noqa: E402
 
 
-def class_of(count):
-    """A class with so many functions, and with all that only looks like one."""
-    functions = [
-        "  Shop();",
-        "  explicit Shop(int a) : a_(a), b_{a}, c_(b_) {}",
-        "  bool operator==(const Shop&) const = default;",
-        "  int one() const { if (a_) { return 1; } return 2; }",
-        "  template <typename T>\n  void task(const std::function<void(T)>& t);",
-    ]
-    functions += [f"  void f{n}(int value = g({n}));" for n in range(count - len(functions))]
-    return "\n".join([
-        "/* class Old { void f(); }; */",
-        "class Shop final : public Base<int> {", " public:", *functions[:3],
-        "  // void not_one();",
-        "  struct Inner {\n    void of_inner();\n    void of_inner_too() {}\n  };",
-        "  using Call = void (*)(int);", "  friend void swap(Shop&, Shop&);",
-        " private:", *functions[3:],
-        "  std::function<void(int)> later_;", "  int a_ = f(3), b_{4};", '  const char* text_ = "void f();";',
-        "};",
-    ])
+class Depth(unittest.TestCase):
+    @staticmethod
+    def chain(headers):
+        """A file above so many headers, each of which includes the next one."""
+        texts = {Path(f"app/h{n}.h"): f'#include "app/h{n + 1}.h"\n#include <app.h>\n' for n in range(headers)}
+        texts[Path(f"app/h{headers - 1}.h")] = '// #include "app/h0.h"\n'
+        return texts | {Path("app/a.cpp"): '#include "app/h0.h"\n'}
+
+    def test_the_longest_chain(self):
+        texts = self.chain(4)
+        texts[Path("app/h1.h")] += '#include "app/h3.h"\n'
+        longest = depth.chains_of(texts)
+        self.assertEqual(list(map(str, longest[Path("app/a.cpp")])), ["app/h0.h", "app/h1.h", "app/h2.h", "app/h3.h"])
+        self.assertEqual(longest[Path("app/h3.h")], [])
+
+    def test_one_too_many(self):
+        self.assertEqual(depth.check(self.chain(depth.MOST)), [])
+        for more in (1, 5):
+            (path, line, said), = depth.check(self.chain(depth.MOST + more))
+            self.assertEqual((path, line), (f"app/h{more - 1}.h", 1))
+            self.assertTrue(said.startswith(f"a chain of {depth.MOST + 1} headers, expected at most {depth.MOST}: "), said)
+            self.assertTrue(said.endswith(f" -> app/h{depth.MOST + more - 1}.h"), said)
+
+    def test_a_circle_ends(self):
+        circle = {Path("app/a.h"): '#include "app/b.h"\n', Path("app/b.h"): '#include "app/a.h"\n'}
+        self.assertEqual(depth.check(circle), [])
 
 
-class Classes(unittest.TestCase):
-    def test_functions_are_counted(self):
-        counted = list(classes.functions_of(source.code_of(class_of(9))))
-        self.assertEqual([(name, count) for _, name, count in counted], [("Shop", 9), ("Inner", 2)])
+class Public(unittest.TestCase):
+    TEXTS = {Path("app/a.h"): '#include "app/b.h"\n#include <vector>\n', Path("app/b.h"): "", Path("app/c.cpp"): ""}
 
-    def test_31_are_too_many(self):
-        self.assertEqual(classes.check(class_of(30)), [])
-        self.assertEqual(classes.check(class_of(31)), [(2, "Shop has 31 functions, expected at most 30")])
+    def faults(self, *lines):
+        found = public.check("\n".join(["# What is installed.", *lines]) + "\n", self.TEXTS)
+        self.assertEqual({path for path, _, _ in found} - {public.LIST}, set())
+        return [(line, said) for _, line, said in found]
+
+    def test_a_list_in_order(self):
+        self.assertEqual(self.faults("app/a.h", "app/b.h"), [])
+        self.assertEqual(self.faults("app/b.h"), [])
+
+    def test_what_is_not_closed_sorted_or_there(self):
+        self.assertEqual(self.faults("app/a.h"), [(2, "app/a.h includes app/b.h, which is not listed")])
+        self.assertEqual(self.faults("app/b.h", "app/a.h"),
+                         [(3, "app/a.h after app/b.h; expected each once, in order")])
+        self.assertEqual(self.faults("app/b.h", "app/b.h"),
+                         [(3, "app/b.h after app/b.h; expected each once, in order")])
+        self.assertEqual(self.faults("app/b.h", "app/c.cpp", "app/d.h"),
+                         [(3, "app/c.cpp is no header of the program"), (4, "app/d.h is no header of the program")])
+
+    def test_151_are_too_many(self):
+        headers = [f"app/h{n}.h" for n in range(100, 251)]
+        texts = {Path(header): "" for header in headers}
+        self.assertEqual(public.check("\n".join(headers[:-1]), texts), [])
+        self.assertEqual(public.check("\n".join(headers), texts),
+                         [(public.LIST, 151, "151 public headers, expected at most 150")])
 
 
-class Folders(unittest.TestCase):
-    def test_26_files_are_too_many(self):
-        paths = [Path(f"app/shop/part_{n}.cpp") for n in range(25)]
-        headers = [Path(f"app/shop/part_{n}.h") for n in range(25)]
-        self.assertEqual(folders.check(paths + headers), [])
-        found = folders.check(paths + [Path("app/shop/more.cpp")])
-        self.assertEqual(found, [("app/shop", 1, "26 .cpp files, expected at most 25")])
+class Members(unittest.TestCase):
+    HEADER = "namespace pedicel::shop {\nclass Shop {\n  Shop();\n  struct Part {};\n};\nstruct Till {};\n}\n"
+    DEFINED = "namespace pedicel::shop {\nShop::Shop() : a_{1}, b_(Till::all()) {}\n}\n"
 
-    def test_registries_may_have_more_and_exist(self):
-        for registry in folders.REGISTRIES:
-            self.assertTrue((ROOT / registry).is_dir(), registry)
-            self.assertEqual(folders.check([Path(registry, f"{n}.cpp") for n in range(40)]), [])
+    def faults(self, text):
+        return members.check({Path("app/shop.h"): self.HEADER, Path("app/shop.cpp"): self.DEFINED,
+                              Path("app/till.cpp"): text})
 
+    def test_a_class_in_two_files(self):
+        for text in ("void Shop::f(int a) {}", "std::map<int, Till> Shop::f() const {}", "Shop::~Shop() = default;",
+                     "const Till& Shop::operator[](int n) {}", "bool Shop::operator<(const Shop&) {}",
+                     "Shop::Part::Part() {}", "Shop::Part* Shop::f() {}", "int pedicel::shop::Shop::f() {}"):
+            with self.subTest(text):
+                self.assertEqual(
+                    self.faults("namespace pedicel {\nnamespace shop {\n" + text + "\n}\n}\n"),
+                    [("app/shop.cpp", 2, "functions of pedicel::shop::Shop stand in app/till.cpp, too; expected one file")],
+                )
 
-class Circles(unittest.TestCase):
-    def test_a_circle_of_libraries(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for room, links in {"app/a": "pedicel_b", "app/b": "pedicel_c", "app/c": "", "app/d": "pedicel_a"}.items():
-                (Path(folder) / room).mkdir(parents=True)
-                text = f"pedicel_library(pedicel_{room[-1]}\n  SOURCES\n    x.cpp\n  PUBLIC {links})\n"
-                (Path(folder) / room / "CMakeLists.txt").write_text(text, encoding="utf-8")
-            self.assertEqual(circles.check(rooms_of(Path(folder))), [])
-            text = "pedicel_library(pedicel_c\n  SOURCES\n    x.cpp\n  PUBLIC pedicel_a)\n"
-            (Path(folder) / "app/c/CMakeLists.txt").write_text(text, encoding="utf-8")
-            self.assertEqual(
-                circles.check(rooms_of(Path(folder))),
-                [("app/a/CMakeLists.txt", 1, "rooms in a circle: app/a -> app/b -> app/c -> app/a")],
-            )
+    def test_what_only_looks_like_a_function_of_the_class(self):
+        for text in ("Till::Till() {}", "Eigen::Vector3d f(Shop& s) {}", "Shop::Part f() {}", "// int Shop::f() {}",
+                     "const Shop shop = Shop::open();", "void f() {\n  Shop::open();\n}", "void ImGui::f() {}",
+                     "namespace other {\nvoid Others::f() {}\n}"):
+            self.assertEqual(self.faults("namespace pedicel::shop {\n" + text + "\n}\n"), [], text)
+
+    def test_classes_of_one_name_in_two_namespaces(self):
+        other = "namespace pedicel::farm { struct Shop {}; }\nnamespace pedicel::farm {\nvoid Shop::f() {}\n}\n"
+        self.assertEqual(self.faults(other), [])
+        hidden = "namespace pedicel::shop {\nnamespace {\nstruct Shop {};\nvoid Shop::f() {}\n}\n}\n"
+        self.assertEqual(self.faults(hidden), [])
 
 
 class Names(unittest.TestCase):

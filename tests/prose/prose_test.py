@@ -122,18 +122,18 @@ class Outputs(unittest.TestCase):
 
 
 class Rooms(unittest.TestCase):
-    ROOMS = {"app/run": {"engine/world"}, "engine/world": set()}
+    ROOMS = {"plugins/simulation": {"engine/world"}, "engine/world": set()}
 
     def check(self, rows):
         return rooms.check(page("| room | holds | links |\n|---|---|---|\n" + rows), self.ROOMS)
 
     def test_the_rooms_as_they_are(self):
-        self.assertEqual(self.check("| `app/run` | x | `engine/world` |\n| `engine/world` | x | |\n"), [])
+        self.assertEqual(self.check("| `plugins/simulation` | x | `engine/world` |\n| `engine/world` | x | |\n"), [])
 
     def test_a_room_that_is_missing_one_that_is_gone_and_a_link_that_is_not(self):
-        self.assertEqual(self.check("| `app/run` | x | `engine/io` |\n| `app/old` | x | |\n"),
+        self.assertEqual(self.check("| `plugins/simulation` | x | `engine/io` |\n| `app/old` | x | |\n"),
                          [(1, "the room `engine/world` is missing"),
-                          (3, "`app/run` links `engine/world`"), (4, "`app/old` is no room")])
+                          (3, "`plugins/simulation` links `engine/world`"), (4, "`app/old` is no room")])
 
     def test_a_room_without_a_readme(self):
         self.assertEqual(rooms.check_readmes({"engine/core", "engine/nowhere"}, ROOT),
@@ -143,6 +143,8 @@ class Rooms(unittest.TestCase):
         found = rooms.rooms_of(ROOT)
         self.assertGreater(len(found), 30)
         self.assertIn("plugins/plant", found["plugins/skeleton"])
+        self.assertIn("plugins/cosserat/laws", found["plugins/cosserat/model"])
+        self.assertNotIn("app/python", found)  # a module
 
 
 class Keys(unittest.TestCase):

@@ -2,9 +2,9 @@
 // criteria.
 #include <gtest/gtest.h>
 
-#include "pedicel/app/report/headless.h"
-#include "pedicel/world/scene_reader.h"
-#include "scenes/shipped_scenes.h"
+#include "app/report/headless.h"
+#include "engine/world/scene_reader.h"
+#include "tests/scenes/shipped_scenes.h"
 
 namespace pedicel {
 namespace {

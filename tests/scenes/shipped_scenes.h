@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "places.h"
+#include "tests/support/places.h"
 
 namespace pedicel {
 
 /// Every scene in assets/scenes, in the order of names.
 inline std::vector<std::filesystem::path> shipped_scenes() {
   std::vector<std::filesystem::path> scenes;
-  const auto folder = std::filesystem::path(PEDICEL_SOURCE_DIR) / "assets/scenes";
+  const auto folder = pedicel::test::source_folder() / "assets/scenes";
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().string().ends_with(".scene.yaml")) scenes.push_back(entry.path());
   std::sort(scenes.begin(), scenes.end());

@@ -1,13 +1,13 @@
-#include "stress/canopy_run.h"
+#include "tests/stress/canopy_run.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
-#include "analytic/sphere_source.h"
-#include "pedicel/cosserat/contact/plant_blades.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "unit/cosserat/random_plants.h"
+#include "plugins/cosserat/contact/plant_blades.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "tests/analytic/sphere_source.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::stress {
 

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <thread>
 
-#include "pedicel/core/thread_pool.h"
-#include "stress/canopy_run.h"
+#include "engine/core/thread_pool.h"
+#include "tests/stress/canopy_run.h"
 
 int main(int argc, char** argv) {
   using pedicel::stress::CanopyOutcome;

@@ -2,7 +2,7 @@
 // a fault.
 #include <gtest/gtest.h>
 
-#include "stress/canopy_run.h"
+#include "tests/stress/canopy_run.h"
 
 namespace pedicel::stress {
 namespace {

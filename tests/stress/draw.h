@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/core/random.h"
+#include "engine/core/frames.h"
+#include "engine/core/random.h"
 
 /// Draws that the stress cases share.
 namespace pedicel::stress {

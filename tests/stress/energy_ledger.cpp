@@ -1,9 +1,9 @@
-#include "stress/energy_ledger.h"
+#include "tests/stress/energy_ledger.h"
 
 #include <algorithm>
 
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/model/rotation.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/model/rotation.h"
 
 namespace pedicel::stress {
 

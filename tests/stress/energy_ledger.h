@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact.h"
-#include "pedicel/cosserat/solver/detachment.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "plugins/cosserat/contact/contact.h"
+#include "plugins/cosserat/solver/detachment.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::stress {
 

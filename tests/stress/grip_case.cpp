@@ -1,14 +1,14 @@
-#include "stress/grip_case.h"
+#include "tests/stress/grip_case.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 
-#include "pedicel/world/scene_reader.h"
-#include "places.h"
-#include "stress/draw.h"
-#include "stress/sentence.h"
+#include "engine/world/scene_reader.h"
+#include "tests/stress/draw.h"
+#include "tests/stress/sentence.h"
+#include "tests/support/places.h"
 
 namespace pedicel::stress {
 
@@ -101,8 +101,7 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 }
 
 std::string robot_text(const GripCase& one) {
-  const std::filesystem::path robots =
-      std::filesystem::path(PEDICEL_SOURCE_DIR) / "assets" / "robots";
+  const std::filesystem::path robots = pedicel::test::source_folder() / "assets" / "robots";
   std::ifstream file(robots / "gantry_gripper" / "gantry_gripper.urdf");
   std::stringstream all;
   all << file.rdbuf();
@@ -187,15 +186,15 @@ std::string describe(const GripCase& one) {
                   one.detach.empty() ? "no" : one.detach.c_str());
 }
 
-std::unique_ptr<app::Simulation> make_grip(const GripCase& one,
-                                           const std::filesystem::path& folder) {
+std::unique_ptr<simulation::Simulation> make_grip(const GripCase& one,
+                                                  const std::filesystem::path& folder) {
   std::ofstream(folder / "grip.plant.yaml") << plant_text(one);
   std::ofstream(folder / "grip.urdf") << robot_text(one);
   std::ofstream(folder / "grip.scene.yaml") << scene_text(one);
   Diagnostics diagnostics;
   const auto scene = world::read_scene(folder / "grip.scene.yaml", diagnostics);
   if (!scene) throw InvalidFile(diagnostics);
-  return std::make_unique<app::Simulation>(*scene, app::SimulationOptions{});
+  return std::make_unique<simulation::Simulation>(*scene, simulation::SimulationOptions{});
 }
 
 }  // namespace pedicel::stress

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::stress {
 
@@ -52,7 +52,7 @@ GripCase draw_grip(std::uint64_t seed);
 std::string describe(const GripCase& one);
 
 /// Writes its plant, robot and scene into a folder and reads them: as the program runs them.
-std::unique_ptr<app::Simulation> make_grip(const GripCase& one,
-                                           const std::filesystem::path& folder);
+std::unique_ptr<simulation::Simulation> make_grip(const GripCase& one,
+                                                  const std::filesystem::path& folder);
 
 }  // namespace pedicel::stress

@@ -1,12 +1,12 @@
-#include "stress/grip_run.h"
+#include "tests/stress/grip_run.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/run/colliders.h"
-#include "pedicel/core/timer.h"
-#include "stress/sentence.h"
-#include "support/temporary_folder.h"
+#include "engine/core/timer.h"
+#include "plugins/simulation/colliders.h"
+#include "tests/stress/sentence.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::stress {
 
@@ -30,15 +30,16 @@ struct Feel {
   double sunk = 0.0;        // 1, of the radius
 };
 
-Feel feel_of(const app::Simulation& sim) {
+Feel feel_of(const simulation::Simulation& sim) {
   Feel feel;
-  const app::RobotControl& robot = *sim.robot();
+  const simulation::RobotControl& robot = *sim.robot();
   const int left = robot.description().link("left_finger");
   const int right = robot.description().link("right_finger");
   for (const cosserat::ContactForce& contact : sim.rods().contact_forces(0)) {
     if (cosserat::is_self_contact(contact.point.collider)) continue;
     const coupling::Collider& collider = sim.colliders().collider(contact.point.collider);
-    if (collider.body != app::robot_body || (collider.link != left && collider.link != right))
+    if (collider.body != simulation::robot_body ||
+        (collider.link != left && collider.link != right))
       continue;
     // What an edge pushes across the way that the fingers close is the arm's.
     const Vec3 outward_W = robot.link_pose(collider.link).rotation * Vec3::UnitY();
@@ -59,7 +60,7 @@ class Judge {
  public:
   Judge(const GripCase& one, GripOutcome& outcome) : one_(one), outcome_(outcome) {}
 
-  void step(const app::Simulation& sim, const world::WorldReport& report) {
+  void step(const simulation::Simulation& sim, const world::WorldReport& report) {
     const double dt = sim.world().dt();
     outcome_.unsolved += (report.errors & world::plant_not_converged) != 0;
     outcome_.broken = !sim.plant_step().detached().empty();

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "stress/grip_case.h"
+#include "tests/stress/grip_case.h"
 
 namespace pedicel::stress {
 

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "stress/grip_run.h"
-#include "stress/seeds.h"
-#include "stress/sentence.h"
+#include "tests/stress/grip_run.h"
+#include "tests/stress/seeds.h"
+#include "tests/stress/sentence.h"
 
 namespace {
 

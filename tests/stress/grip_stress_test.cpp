@@ -2,7 +2,7 @@
 // README.md.
 #include <gtest/gtest.h>
 
-#include "stress/grip_run.h"
+#include "tests/stress/grip_run.h"
 
 namespace pedicel::stress {
 namespace {

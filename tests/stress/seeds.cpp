@@ -1,4 +1,4 @@
-#include "stress/seeds.h"
+#include "tests/stress/seeds.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,12 +9,12 @@
 #include <sstream>
 #include <thread>
 
-#include "pedicel/cluster/campaign.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/cosserat/lanes/instruction_set.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/cluster/campaign.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/core/thread_pool.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/cosserat/lanes/instruction_set.h"
 
 namespace pedicel::stress {
 

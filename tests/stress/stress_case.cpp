@@ -1,12 +1,12 @@
-#include "stress/stress_case.h"
+#include "tests/stress/stress_case.h"
 
 #include <algorithm>
 
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/geometry/shapes.h"
-#include "stress/draw.h"
-#include "stress/sentence.h"
-#include "stress/stress_plants.h"
+#include "engine/geometry/shapes.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "tests/stress/draw.h"
+#include "tests/stress/sentence.h"
+#include "tests/stress/stress_plants.h"
 
 namespace pedicel::stress {
 

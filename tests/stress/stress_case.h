@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cosserat/solver/rod_solver.h"
-#include "pedicel/coupling/coupling_settings.h"
-#include "pedicel/geometry/signed_distance.h"
+#include "engine/geometry/signed_distance.h"
+#include "plugins/cosserat/solver/rod_solver.h"
+#include "plugins/coupling/coupling_settings.h"
 
 namespace pedicel::stress {
 

@@ -1,13 +1,13 @@
-#include "stress/stress_plants.h"
+#include "tests/stress/stress_plants.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "pedicel/cosserat/solver/standing.h"
-#include "pedicel/plant/plant_builder.h"
-#include "pedicel/skeleton/mtg_reader.h"
-#include "places.h"
-#include "stress/draw.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "plugins/plant/plant_builder.h"
+#include "plugins/skeleton/mtg_reader.h"
+#include "tests/stress/draw.h"
+#include "tests/support/places.h"
 
 namespace pedicel::stress {
 
@@ -162,7 +162,7 @@ void take_over(Random& random, plant::PlantFile& file, const StressCase& one) {
 // As drawn where it can stand so, else unloaded as drawn. Empty where it does not build.
 std::optional<RodModel> build(plant::PlantFile& file) {
   plant::BuildOptions options;
-  options.leaf_folders = {PEDICEL_SOURCE_DIR "/assets/leaves"};
+  options.leaf_folders = {pedicel::test::source_folder() / "assets/leaves"};
   for (const plant::Shape shape : {file.shape, plant::Shape::rest}) {
     file.shape = shape;
     Diagnostics diagnostics;
@@ -191,11 +191,12 @@ std::optional<RodModel> plant_of_file(Random& random, const fs::path& path, cons
 
 void draw_plant(Random& random, StressCase& one) {
   static const std::vector<fs::path> shipped = {
-      PEDICEL_SOURCE_DIR "/plants/cherry_tomato.plant.yaml",
-      PEDICEL_SOURCE_DIR "/plants/greenhouse_tomato.plant.yaml",
-      PEDICEL_SOURCE_DIR "/plants/young_plant.plant.yaml"};
-  static const std::vector<fs::path> trees = {PEDICEL_SOURCE_DIR "/plants/apple_tree.mtg",
-                                              PEDICEL_SOURCE_DIR "/plants/apple_tree.plant.yaml"};
+      pedicel::test::source_folder() / "plants/cherry_tomato.plant.yaml",
+      pedicel::test::source_folder() / "plants/greenhouse_tomato.plant.yaml",
+      pedicel::test::source_folder() / "plants/young_plant.plant.yaml"};
+  static const std::vector<fs::path> trees = {
+      pedicel::test::source_folder() / "plants/apple_tree.mtg",
+      pedicel::test::source_folder() / "plants/apple_tree.plant.yaml"};
   const double kind = random.uniform();
   if (kind < 0.35) {
     const auto& files = kind < 0.05 ? trees : shipped;

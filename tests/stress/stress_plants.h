@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/core/random.h"
-#include "stress/stress_case.h"
+#include "engine/core/random.h"
+#include "tests/stress/stress_case.h"
 
 namespace pedicel::stress {
 

@@ -1,14 +1,14 @@
-#include "stress/stress_run.h"
+#include "tests/stress/stress_run.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/coupling/collider_source.h"
-#include "stress/energy_ledger.h"
-#include "stress/sentence.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/coupling/collider_source.h"
+#include "tests/stress/energy_ledger.h"
+#include "tests/stress/sentence.h"
 
 namespace pedicel::stress {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "stress/stress_case.h"
+#include "tests/stress/stress_case.h"
 
 namespace pedicel::stress {
 

@@ -1,6 +1,6 @@
 // The program behind tools/stress.
-#include "stress/seeds.h"
-#include "stress/stress_run.h"
+#include "tests/stress/seeds.h"
+#include "tests/stress/stress_run.h"
 
 namespace {
 

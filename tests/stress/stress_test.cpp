@@ -2,9 +2,9 @@
 // and energy_ledger.h for the bounds.
 #include <gtest/gtest.h>
 
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "stress/energy_ledger.h"
-#include "stress/stress_run.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "tests/stress/energy_ledger.h"
+#include "tests/stress/stress_run.h"
 
 namespace pedicel::stress {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/io/key.h"
+#include "engine/io/key.h"
 
 namespace pedicel {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/discrepancy/scene/scene_observe.h"
-#include "unit/discrepancy_scene/arm_at_stem.h"
+#include "plugins/discrepancy/scene_predict/scene_observe.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 /// A run of an arm at a stem, as the program itself would see it.
 namespace pedicel::testing {

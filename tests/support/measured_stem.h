@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/simulate/simulator.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 /// A stem that was pulled aside and let go in two directions, as the program itself would see it.
 namespace pedicel::testing {

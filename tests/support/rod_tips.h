@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/cosserat/solver/rod_system.h"
+#include "plugins/cosserat/solver/rod_system.h"
 
 namespace pedicel::cosserat::cases {
 

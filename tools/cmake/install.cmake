@@ -15,14 +15,9 @@ macro(pedicel_module PREFIX MODULE)
   set_property(GLOBAL APPEND_STRING PROPERTY pedicel_dependencies "pedicel_module(${PREFIX} ${MODULE} ${ARGN})\n")
 endmacro()
 
-# pedicel_install_headers(FROM FOLDER): the headers of a folder as pedicel/FOLDER/...
-function(pedicel_install_headers FROM FOLDER)
-  install(DIRECTORY ${FROM}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pedicel/${FOLDER}
-          COMPONENT development FILES_MATCHING PATTERN "*.h")
-endfunction()
-
-# pedicel_install(NAME FOLDER): the library pedicel_x of this folder is Pedicel::x, with its headers.
-function(pedicel_install NAME FOLDER)
+# pedicel_install(NAME): the library pedicel_x is Pedicel::x for whoever finds the package. Which
+# headers come with it is a list (public_headers.txt).
+function(pedicel_install NAME)
   string(REGEX REPLACE "^pedicel_" "" short ${NAME})
   add_library(Pedicel::${short} ALIAS ${NAME})
   set_target_properties(${NAME} PROPERTIES EXPORT_NAME ${short})
@@ -30,6 +25,14 @@ function(pedicel_install NAME FOLDER)
   target_compile_options(${NAME} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
   target_compile_features(${NAME} INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
   install(TARGETS ${NAME} EXPORT PedicelTargets COMPONENT development
-          INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  pedicel_install_headers(${CMAKE_CURRENT_SOURCE_DIR} ${FOLDER})
+          INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pedicel)
 endfunction()
+
+# The public headers keep their places: `#include "plugins/plant/plant_file.h"`, as in the tree.
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/public_headers.txt public_headers REGEX "^[^#]")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/public_headers.txt)
+foreach(header ${public_headers})
+  get_filename_component(place ${header} DIRECTORY)
+  install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pedicel/${place}
+          COMPONENT development)
+endforeach()

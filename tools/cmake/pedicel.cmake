@@ -1,41 +1,68 @@
 # pedicel_library(NAME [ALONE] [COLD] SOURCES file... [PUBLIC target...] [PRIVATE target...])
 #
-# One static library per folder, a room. Its headers are reached as
-#   pedicel/core/check.h        of engine/core
-#   pedicel/plant/plant_file.h  of plugins/plant
-#   pedicel/app/run/grip.h      of app/run
-# and only by targets that link it: each room exports an include root of its own that holds nothing
-# but a link to its folder. An include of a room that is not linked is a build error.
+# One static library per folder, a room. Its headers are reached by their place in the tree:
+# `#include "plugins/plant/plant_file.h"`. A room includes only the rooms that it links; tools/house
+# compares both (ctest House.rooms).
 #
 # Half of a file's compile time goes into headers, so five files of a room are compiled as one; ALONE:
 # each by itself (kernels that include themselves once an instruction set). COLD: nothing here takes
 # a run's time, so the compiler need not either.
+# All rooms have the same flags but for that, so that they share two sets of precompiled headers, and
+# their code is position independent, so that the Python module can take it. What is hidden is called
+# and read as directly as before.
 function(pedicel_library NAME)
   cmake_parse_arguments(ARG "ALONE;COLD" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  pedicel_include_root(${NAME} root)
   add_library(${NAME} STATIC ${ARG_SOURCES})
-  target_include_directories(${NAME} PUBLIC $<BUILD_INTERFACE:${root}>)
+  target_include_directories(${NAME} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   target_link_libraries(${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  pedicel_install(${NAME} ${folder})
+  pedicel_install(${NAME})
   if(PEDICEL_UNITY AND NOT ARG_ALONE)
     set_target_properties(${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
   endif()
-  if(ARG_COLD AND CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${NAME} PRIVATE -O2)
+  if(ARG_COLD)
+    pedicel_compiled(${NAME} cold)
+  else()
+    pedicel_compiled(${NAME} hot)
   endif()
 endfunction()
 
-# pedicel_include_root(NAME ROOT): ROOT becomes the include root of this folder, and `folder` the name
-# by which its headers are reached.
-function(pedicel_include_root NAME ROOT)
-  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  string(REGEX REPLACE "^(engine|plugins)/" "" folder ${folder})
-  set(root ${PROJECT_BINARY_DIR}/include/${NAME})
-  get_filename_component(parent ${root}/pedicel/${folder} DIRECTORY)
-  file(MAKE_DIRECTORY ${parent})
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/pedicel/${folder} SYMBOLIC)
-  set(${ROOT} ${root} PARENT_SCOPE)
-  set(folder ${folder} PARENT_SCOPE)
+# pedicel_compiled(NAME cold|hot|test): the flags of that kind, and its precompiled headers: what a
+# third of a file's time would go into. clang-tidy and the fuzzers go without.
+function(pedicel_compiled NAME KIND)
+  set_target_properties(${NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                        VISIBILITY_INLINES_HIDDEN ON)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT KIND STREQUAL hot)
+    target_compile_options(${NAME} PRIVATE -O1)
+  endif()
+  if(NOT PEDICEL_PCH)
+    return()
+  endif()
+  if(NOT TARGET pedicel_headers_${KIND})
+    file(WRITE ${PROJECT_BINARY_DIR}/headers.cpp "")
+    add_library(pedicel_headers_${KIND} OBJECT ${PROJECT_BINARY_DIR}/headers.cpp)
+    set(headers <Eigen/Dense> <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory>
+        <optional> <set> <span> <sstream> <string> <variant> <vector>)
+    if(KIND STREQUAL test)
+      target_link_libraries(pedicel_headers_${KIND} PRIVATE GTest::gmock)
+      list(APPEND headers <gmock/gmock.h> <gtest/gtest.h>)
+    endif()
+    target_link_libraries(pedicel_headers_${KIND} PRIVATE Eigen3::Eigen)
+    target_precompile_headers(pedicel_headers_${KIND} PRIVATE ${headers})
+    set(PEDICEL_PCH OFF)  # for the call below alone: the same flags
+    pedicel_compiled(pedicel_headers_${KIND} ${KIND})
+    set(PEDICEL_PCH ON)
+  endif()
+  target_compile_options(${NAME} PRIVATE -fpch-preprocess)  # for ccache
+  target_precompile_headers(${NAME} REUSE_FROM pedicel_headers_${KIND})
+endfunction()
+
+# pedicel_headers(NAME [PUBLIC target...]): a room of headers alone.
+function(pedicel_headers NAME)
+  cmake_parse_arguments(ARG "" "" "PUBLIC" ${ARGN})
+  add_library(${NAME} INTERFACE)
+  target_include_directories(${NAME} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_link_libraries(${NAME} INTERFACE ${ARG_PUBLIC})
+  pedicel_install(${NAME})
 endfunction()
 
 # pedicel_test(NAME SOURCES file... [APART file...] LIBRARIES target... [LABELS label...] [TIMEOUT s])
@@ -58,11 +85,8 @@ function(pedicel_test NAME)
     set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     target_compile_options(${NAME} PRIVATE -Wno-shadow)  # of another file's constants
   endif()
-  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND "unit" IN_LIST ARG_LABELS)
-    target_compile_options(${NAME} PRIVATE -O1)
-  endif()
-  target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests ${PROJECT_BINARY_DIR}/include/tests)
-  target_link_libraries(${NAME} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
+  pedicel_compiled(${NAME} test)
+  target_link_libraries(${NAME} PRIVATE ${ARG_LIBRARIES} pedicel_places GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${NAME} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
                        DISCOVERY_TIMEOUT 120)
 endfunction()

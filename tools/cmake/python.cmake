@@ -17,21 +17,3 @@ if(NOT Python_FOUND OR NOT pybind11_FOUND)
   message(STATUS "No Python module: it needs python3-dev, python3-numpy and pybind11-dev")
   set(PEDICEL_PYTHON OFF)
 endif()
-
-# pedicel_for_modules(TARGET...): these rooms and those that they link may go into a module: their
-# code is position independent. What is hidden is called and read as directly as before, so it costs
-# no time.
-function(pedicel_for_modules)
-  foreach(target ${ARGN})
-    if(NOT TARGET ${target} OR NOT ${target} MATCHES "^pedicel_")
-      continue()
-    endif()
-    get_target_property(ready ${target} POSITION_INDEPENDENT_CODE)
-    if(NOT ready)
-      set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON
-                            CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-      get_target_property(links ${target} LINK_LIBRARIES)
-      pedicel_for_modules(${links})
-    endif()
-  endforeach()
-endfunction()

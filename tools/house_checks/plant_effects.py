@@ -1,4 +1,5 @@
-"""An effect of plants and measurements is one file: no other one knows it by name.
+"""An effect of plants and measurements is one file: no other one knows it by name, but the laws of
+joints, where a term of the kernels says whose it is.
 
 A name that is a key of files as well (a modulus, a wind, a sensor's latency) is left alone, but in
 the diagnosis, which asks for the numbers of the material by what they do.
@@ -7,6 +8,7 @@ the diagnosis, which asks for the numbers of the material by what they do.
 import re
 
 EFFECTS = "plugins/effects"
+LAWS = "plugins/cosserat/laws"
 FOLDERS = ("app/", "plugins/")
 KEYS = {"youngs_modulus", "density", "damping_time", "wind", "latency"}
 DIAGNOSIS = "plugins/discrepancy/"
@@ -38,7 +40,7 @@ def check(texts):
     return [
         (str(path), line, f"names the effect {said}; expected a field of its definition")
         for path, text in texts.items()
-        if str(path).startswith(FOLDERS) and str(path.parent) != EFFECTS
+        if str(path).startswith(FOLDERS) and str(path.parent) not in (EFFECTS, LAWS)
         for line, said in strings_of(text)
         if is_meant(path, said)
     ]

@@ -9,6 +9,7 @@ TYPE = re.compile(
     r"\b(?:class|struct)\s+(?:alignas\([^)]*\)\s*)?(?P<type>\w+)(?:\s+final)?(?:\s*:(?!:)[^;{}()]*)?\s*\{"
     r"|\benum\s+(?:class\s+)?(?P<enum>\w+)(?:\s*:(?!:)[^;{}()]*)?\s*\{"
 )
+INCLUDE = re.compile(r'[ \t]*#[ \t]*include[ \t]*(?:"(?P<quoted>[^"\n]+)"|<(?P<angled>[^>\n]+)>)')
 
 
 def files(root):
@@ -30,19 +31,14 @@ def code_of(text):
     return NOT_CODE.sub(blank, text)
 
 
-def body_of(code, start):
-    """What stands between the brace that ends before `start` and its partner; braces within as {}."""
-    text, depth = [], 1
-    for at in range(start, len(code)):
-        letter = code[at]
-        if letter == "}":
-            depth -= 1
-            if depth == 0:
-                break
-            if depth == 1:
-                text.append("{}")
-        elif letter == "{":
-            depth += 1
-        elif depth == 1:
-            text.append(letter)
-    return "".join(text)
+def includes_of(text):
+    """(line, what is included, whether in quotes) of every include; comments have none."""
+    for found in NOT_CODE.finditer(text):
+        if included := INCLUDE.match(found.group()):
+            name = included["quoted"] or included["angled"]
+            yield text.count("\n", 0, found.start()) + 1, name, bool(included["quoted"])
+
+
+def own_includes(text):
+    """Files of the program that a file includes."""
+    return [Path(name) for _, name, _ in includes_of(text) if name.partition("/")[0] in LAYERS]

@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
-#include "pedicel/core/ring_down.h"
-#include "pedicel/core/timer.h"
+#include "engine/core/ring_down.h"
+#include "engine/core/timer.h"
 
 namespace peers {
 

@@ -72,7 +72,7 @@ RULES = [
     Rule("settings.md", ("engine/world/settings.cpp",), (NUMBER,), 5),
     Rule("settings.md", ("plugins/cosserat/solver/rod_settings.cpp",), (PARAMETER,), 4),
     Rule("settings.md", ("plugins/coupling/coupling_settings.cpp",), (PARAMETER,), 8),
-    Rule("settings.md", ("app/plants/rod_options.cpp",), (WORD,), 3, end=""),
+    Rule("settings.md", ("plugins/simulation/plants/rod_options.cpp",), (WORD,), 3, end=""),
     Rule("settings.md", ("plugins/plant/model/plant_model.h",), (DESCRIBED,), 4, prefix="material.",
          end=LISTS, within="&MaterialValues::"),
     Rule("settings.md", ("plugins/plant/model/plant_model.h",), (DESCRIBED,), 5, prefix="detach.",
@@ -82,8 +82,8 @@ RULES = [
     Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),
     Rule("quantities.md", ("app/session/commands/session_commands.cpp",), (SCRIPT_QUANTITY,), 7),
     Rule("quantities.md", ("engine/world/recorder.cpp",), (COLUMN,), 16, end=""),
-    Rule("quantities.md", ("app/run/channels.cpp",), (CHANNEL,), 6, end=""),
-    Rule("quantities.md", ("app/run/channels.cpp",), (FRUIT_CHANNEL,), 5, prefix="PLANT/FRUIT", end=""),
+    Rule("quantities.md", ("plugins/simulation/channels.cpp",), (CHANNEL,), 6, end=""),
+    Rule("quantities.md", ("plugins/simulation/channels.cpp",), (FRUIT_CHANNEL,), 5, prefix="PLANT/FRUIT", end=""),
     Rule("quantities.md", ("app/report/meta.cpp",), (JSON,), 25, end="", leave_out=("value", "unit")),
 ]
 

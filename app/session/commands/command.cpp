@@ -1,8 +1,8 @@
-#include "pedicel/app/session/commands/command.h"
+#include "app/session/commands/command.h"
 
-#include "pedicel/app/session/commands/command_line.h"
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/core/check.h"
+#include "app/session/commands/command_line.h"
+#include "app/session/commands/command_table.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

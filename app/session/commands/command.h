@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::app {
 

@@ -1,9 +1,9 @@
-#include "pedicel/app/session/commands/command_line.h"
+#include "app/session/commands/command_line.h"
 
 #include <cmath>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/world/settings.h"
+#include "engine/io/csv.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::app {
 

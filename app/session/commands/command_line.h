@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/commands/command_table.h"
+#include "app/session/commands/command_table.h"
 
 /// The text form of commands, piece by piece.
 namespace pedicel::app {

@@ -1,6 +1,6 @@
 #include <set>
 
-#include "pedicel/app/session/commands/command_line.h"
+#include "app/session/commands/command_line.h"
 
 namespace pedicel::app {
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/session/commands/command_table.h"
+#include "app/session/commands/command_table.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/document_bounds.h"
-#include "pedicel/core/check.h"
+#include "app/session/document/document.h"
+#include "app/session/document/document_bounds.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

@@ -1,13 +1,13 @@
 #include <algorithm>
 
-#include "pedicel/app/plants/plant_overrides.h"
-#include "pedicel/app/plants/rod_options.h"
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/settings_check.h"
-#include "pedicel/core/check.h"
-#include "pedicel/coupling/coupling_settings.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/commands/scene_things.h"
+#include "app/session/document/document.h"
+#include "app/session/document/settings_check.h"
+#include "engine/core/check.h"
+#include "plugins/coupling/coupling_settings.h"
+#include "plugins/simulation/plants/plant_overrides.h"
+#include "plugins/simulation/plants/rod_options.h"
 
 /// Plants as a whole, settings and waypoints as commands.
 namespace pedicel::app {

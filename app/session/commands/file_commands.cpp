@@ -1,9 +1,9 @@
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/document/file_texts.h"
-#include "pedicel/app/session/document/plant_import.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_robot.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/document/file_texts.h"
+#include "app/session/document/plant_import.h"
+#include "app/session/session.h"
+#include "app/session/session_files.h"
+#include "app/session/session_robot.h"
 
 /// Files: open, save, import, export.
 namespace pedicel::app {

@@ -1,9 +1,9 @@
 #include <cstdio>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_films.h"
-#include "pedicel/core/check.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/session.h"
+#include "app/session/session_films.h"
+#include "engine/core/check.h"
 
 /// Films of what is done.
 namespace pedicel::app {

@@ -1,17 +1,17 @@
-#include "pedicel/app/session/commands/measured_commands.h"
+#include "app/session/commands/measured_commands.h"
 
 #include <array>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/measured/measured_data.h"
-#include "pedicel/app/session/measured/measured_scene.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/core/check.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/plant/effect_reader.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/document/document.h"
+#include "app/session/measured/measured_data.h"
+#include "app/session/measured/measured_scene.h"
+#include "app/session/session.h"
+#include "app/session/session_measured.h"
+#include "engine/core/check.h"
+#include "engine/io/yaml.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "plugins/plant/effect_reader.h"
 
 /// Commands about measured data, and the effects that a diagnosis brings into the document.
 namespace pedicel::app {

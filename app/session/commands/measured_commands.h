@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/io/yaml_piece.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/io/yaml_piece.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::app {
 

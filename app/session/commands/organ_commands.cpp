@@ -1,10 +1,10 @@
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/effective_plant.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/plant/organ_edit.h"
-#include "pedicel/plant/plant_edit.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/document/document.h"
+#include "app/session/document/effective_plant.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "plugins/plant/organ_edit.h"
+#include "plugins/plant/plant_edit.h"
 
 /// Fruits, leaves, masses, supports and materials as commands: thin covers of plant/organ_edit.h.
 namespace pedicel::app {

@@ -1,7 +1,7 @@
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_robot.h"
-#include "pedicel/core/check.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/session.h"
+#include "app/session/session_robot.h"
+#include "engine/core/check.h"
 
 /// The robot by hand, and what it plays.
 namespace pedicel::app {

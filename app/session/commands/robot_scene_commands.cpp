@@ -1,9 +1,9 @@
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_robot.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/commands/scene_things.h"
+#include "app/session/session.h"
+#include "app/session/session_robot.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
 
 /// The robot as a part of the scene, as commands.
 namespace pedicel::app {

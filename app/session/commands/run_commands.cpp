@@ -1,12 +1,13 @@
 #include <cmath>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/live/organ_place.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_films.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/world/settings.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/live/organ_place.h"
+#include "app/session/live/pull.h"
+#include "app/session/session.h"
+#include "app/session/session_films.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "engine/world/settings.h"
 
 /// The simulation: its time, its speed, pulls by command.
 namespace pedicel::app {

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/thing_bounds.h"
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/scene_writer.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/commands/scene_things.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "engine/io/thing_bounds.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/scene_writer.h"
 
 /// What a scene is built of beside its plants, as commands: bodies, ground, cameras, robot.
 namespace pedicel::app {

@@ -1,12 +1,12 @@
-#include "pedicel/app/session/commands/scene_things.h"
+#include "app/session/commands/scene_things.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/thing_bounds.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/thing_bounds.h"
 
 namespace pedicel::app {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/commands/command.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/scene_references.h"
+#include "app/session/commands/command.h"
+#include "app/session/document/document.h"
+#include "app/session/document/scene_references.h"
 
 /// What the commands about things of a scene share: looking them up by name, and their arguments.
 namespace pedicel::app {

@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/session.h"
-#include "pedicel/app/session/session_tuning.h"
-#include "pedicel/io/csv.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/session.h"
+#include "app/session/session_tuning.h"
+#include "engine/io/csv.h"
 
 /// History, settings, and what is asked of a session.
 namespace pedicel::app {

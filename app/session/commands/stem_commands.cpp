@@ -1,9 +1,9 @@
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/scene_references.h"
-#include "pedicel/core/check.h"
-#include "pedicel/plant/plant_edit.h"
-#include "pedicel/plant/point_kind.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/document/document.h"
+#include "app/session/document/scene_references.h"
+#include "engine/core/check.h"
+#include "plugins/plant/plant_edit.h"
+#include "plugins/plant/point_kind.h"
 
 /// Stems as commands: thin covers of plant/plant_edit.h.
 namespace pedicel::app {

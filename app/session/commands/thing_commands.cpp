@@ -1,6 +1,6 @@
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/core/check.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/commands/scene_things.h"
+#include "engine/core/check.h"
 
 /// Moving, turning, copying, renaming and deleting what stands in a scene, as commands.
 namespace pedicel::app {

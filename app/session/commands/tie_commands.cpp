@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/commands/scene_things.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
 
 /// Strings of a scene (its `ties`) as commands.
 namespace pedicel::app {

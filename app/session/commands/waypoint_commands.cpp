@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/core/check.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/document/document.h"
+#include "engine/core/check.h"
 
 /// Recorded waypoints, one by one, as commands.
 namespace pedicel::app {

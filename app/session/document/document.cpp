@@ -1,17 +1,17 @@
-#include "pedicel/app/session/document/document.h"
+#include "app/session/document/document.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/run/scene_plants.h"
-#include "pedicel/app/session/document/plant_import.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/state_hash.h"
-#include "pedicel/io/asset_folder.h"
-#include "pedicel/skeleton/plant_source.h"
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/scene_writer.h"
-#include "pedicel/world/settings.h"
+#include "app/session/document/plant_import.h"
+#include "engine/core/check.h"
+#include "engine/core/state_hash.h"
+#include "engine/io/asset_folder.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/scene_writer.h"
+#include "engine/world/settings.h"
+#include "plugins/simulation/scene_plants.h"
+#include "plugins/skeleton/plant_source.h"
 
 namespace pedicel::app {
 
@@ -71,9 +71,9 @@ void read_plants(Document& document, Diagnostics& diagnostics) {
   for (const world::ScenePlant& entry : document.scene->plants) {
     DocumentPlant one{entry, nullptr};
     const bool is_file = entry.source != world::ScenePlant::Source::built_in;
-    const std::filesystem::path path = app::source_of(entry);
+    const std::filesystem::path path = simulation::source_of(entry);
     if (is_file && !path.empty())
-      if (auto file = app::read_scene_plant(entry, diagnostics))
+      if (auto file = simulation::read_scene_plant(entry, diagnostics))
         one.file = std::make_shared<const plant::PlantFile>(std::move(*file));
     document.plants.push_back(std::move(one));
   }
@@ -199,8 +199,9 @@ world::Scene scene_of(const Document& document) {
   return scene;
 }
 
-SimulationOptions options_of(const Document& document, const std::vector<std::string>& packages) {
-  SimulationOptions options;
+simulation::SimulationOptions options_of(const Document& document,
+                                         const std::vector<std::string>& packages) {
+  simulation::SimulationOptions options;
   options.packages = packages;
   options.leaf_folders = asset_leaf_folders();
   for (const DocumentPlant& one : document.plants)

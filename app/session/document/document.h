@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/world/scene.h"
+#include "engine/world/scene.h"
+#include "plugins/plant/plant_file.h"
+#include "plugins/simulation/simulation_options.h"
 
 namespace pedicel::app {
 
@@ -72,7 +72,8 @@ Document open_document(const std::filesystem::path& path, double unit = 0.0,
 /// The scene with the document's plants and settings in it, and the plants that take the place of
 /// files. Throws UsageError for a setting that is impossible.
 world::Scene scene_of(const Document& document);
-SimulationOptions options_of(const Document& document, const std::vector<std::string>& packages);
+simulation::SimulationOptions options_of(const Document& document,
+                                         const std::vector<std::string>& packages);
 
 /// Where leaf templates are looked for after a plant's own folders: the shipped ones; empty without
 /// assets.

@@ -1,12 +1,12 @@
-#include "pedicel/app/session/document/document_bounds.h"
+#include "app/session/document/document_bounds.h"
 
 #include <algorithm>
 
-#include "pedicel/app/plants/plant_overrides.h"
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/csv.h"
+#include "app/session/document/document.h"
+#include "engine/core/check.h"
+#include "engine/io/csv.h"
+#include "plugins/simulation/plants/plant_overrides.h"
+#include "plugins/simulation/scene_assets.h"
 
 namespace pedicel::app {
 
@@ -49,7 +49,7 @@ void check_plant(const plant::PlantFile& plant) {
 plant::PlantFile set_plant(const Document& document, const world::Scene& scene, std::size_t p) {
   plant::PlantFile plant = *document.plants[p].file;
   Diagnostics ignored;  // they were checked when they were set
-  apply_plant_overrides(plant, scene.plants[p].set, ignored);
+  simulation::apply_plant_overrides(plant, scene.plants[p].set, ignored);
   return plant;
 }
 

@@ -1,10 +1,10 @@
-#include "pedicel/app/session/document/document_parameters.h"
+#include "app/session/document/document_parameters.h"
 
 #include <algorithm>
 
-#include "pedicel/app/plants/rod_options.h"
-#include "pedicel/app/session/document/plant_parameters.h"
-#include "pedicel/coupling/coupling_settings.h"
+#include "app/session/document/plant_parameters.h"
+#include "plugins/coupling/coupling_settings.h"
+#include "plugins/simulation/plants/rod_options.h"
 
 namespace pedicel::app {
 
@@ -19,8 +19,8 @@ struct Settings {
 Settings settings_of(const world::Scene& scene) {
   Settings settings;
   Diagnostics diagnostics;
-  apply_rod_settings(scene.rods, settings.rods, diagnostics);
-  apply_coupling_settings(scene.coupling, settings.coupling, diagnostics);
+  simulation::apply_rod_settings(scene.rods, settings.rods, diagnostics);
+  simulation::apply_coupling_settings(scene.coupling, settings.coupling, diagnostics);
   return settings;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/document/document.h"
+#include "app/session/document/document.h"
 
 namespace pedicel::app {
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/session/document/effective_plant.h"
+#include "app/session/document/effective_plant.h"
 
 #include <algorithm>
 
-#include "pedicel/app/plants/plant_overrides.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/plant_parameters.h"
-#include "pedicel/core/check.h"
+#include "app/session/document/document.h"
+#include "app/session/document/plant_parameters.h"
+#include "engine/core/check.h"
+#include "plugins/simulation/plants/plant_overrides.h"
 
 namespace pedicel::app {
 
@@ -18,7 +18,7 @@ std::size_t index_of(const Document& document, const std::string& plant) {
 
 plant::PlantFile with(plant::PlantFile plant, const std::vector<world::Setting>& settings) {
   Diagnostics diagnostics;
-  apply_plant_overrides(plant, settings, diagnostics);
+  simulation::apply_plant_overrides(plant, settings, diagnostics);
   if (diagnostics.has_errors()) throw UsageError(sentences(diagnostics.all()));
   return plant;
 }

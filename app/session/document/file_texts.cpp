@@ -1,9 +1,9 @@
-#include "pedicel/app/session/document/file_texts.h"
+#include "app/session/document/file_texts.h"
 
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/document/scene_save.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/atomic_file.h"
+#include "app/session/document/document.h"
+#include "app/session/document/scene_save.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
 

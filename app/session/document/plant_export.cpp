@@ -1,8 +1,8 @@
-#include "pedicel/app/session/document/plant_export.h"
+#include "app/session/document/plant_export.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/plant/plant_export.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/plant/plant_export.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,8 @@
-#include "pedicel/app/session/document/plant_import.h"
+#include "app/session/document/plant_import.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/unit_text.h"
-#include "pedicel/skeleton/plant_source.h"
+#include "engine/core/check.h"
+#include "engine/io/unit_text.h"
+#include "plugins/skeleton/plant_source.h"
 
 namespace pedicel::app {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::app {
 

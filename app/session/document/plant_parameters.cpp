@@ -1,7 +1,7 @@
-#include "pedicel/app/session/document/plant_parameters.h"
+#include "app/session/document/plant_parameters.h"
 
-#include "pedicel/app/plants/plant_overrides.h"
-#include "pedicel/plant/plant_numbers.h"
+#include "plugins/plant/plant_numbers.h"
+#include "plugins/simulation/plants/plant_overrides.h"
 
 namespace pedicel::app {
 
@@ -11,7 +11,7 @@ using plant::PlantFile;
 
 PlantFile with(PlantFile plant, const std::vector<world::Setting>& settings) {
   Diagnostics ignored;  // they were checked when they were set
-  apply_plant_overrides(plant, settings, ignored);
+  simulation::apply_plant_overrides(plant, settings, ignored);
   return plant;
 }
 

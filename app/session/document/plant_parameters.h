@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/document/document_parameters.h"
-#include "pedicel/plant/plant_file.h"
+#include "app/session/document/document_parameters.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::app {
 

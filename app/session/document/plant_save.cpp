@@ -1,7 +1,7 @@
-#include "pedicel/app/session/document/plant_save.h"
+#include "app/session/document/plant_save.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/yaml_merge.h"
+#include "engine/core/check.h"
+#include "engine/io/yaml_merge.h"
 
 namespace pedicel::app {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::app {
 

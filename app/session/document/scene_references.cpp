@@ -1,4 +1,4 @@
-#include "pedicel/app/session/document/scene_references.h"
+#include "app/session/document/scene_references.h"
 
 #include <algorithm>
 

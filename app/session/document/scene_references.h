@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/document/document.h"
+#include "app/session/document/document.h"
 
 /// What a scene says of things by their names: the robot's program goes to a fruit, a load pulls
 /// it, an expectation is about it, a camera follows it, a tie holds it, a cut takes it off.

@@ -1,14 +1,14 @@
-#include "pedicel/app/session/document/scene_save.h"
+#include "app/session/document/scene_save.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/yaml_merge.h"
-#include "pedicel/io/yaml_text.h"
-#include "pedicel/io/yaml_words.h"
-#include "pedicel/world/scene_fields.h"
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/scene_writer.h"
+#include "engine/core/check.h"
+#include "engine/io/yaml_merge.h"
+#include "engine/io/yaml_text.h"
+#include "engine/io/yaml_words.h"
+#include "engine/world/scene_fields.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/scene_writer.h"
 
 namespace pedicel::app {
 

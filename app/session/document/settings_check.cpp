@@ -1,9 +1,9 @@
-#include "pedicel/app/session/document/settings_check.h"
+#include "app/session/document/settings_check.h"
 
-#include "pedicel/app/plants/plant_overrides.h"
-#include "pedicel/app/plants/rod_options.h"
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
+#include "plugins/simulation/plants/plant_overrides.h"
+#include "plugins/simulation/plants/rod_options.h"
+#include "plugins/simulation/scene_assets.h"
 
 namespace pedicel::app {
 
@@ -12,12 +12,12 @@ void check_settings(const Document& document) {
   Diagnostics diagnostics;
   cosserat::RodSettings rods;
   coupling::CouplingSettings coupling;
-  apply_rod_settings(scene.rods, rods, diagnostics);
-  apply_coupling_settings(scene.coupling, coupling, diagnostics);
+  simulation::apply_rod_settings(scene.rods, rods, diagnostics);
+  simulation::apply_coupling_settings(scene.coupling, coupling, diagnostics);
   for (std::size_t p = 0; p < document.plants.size(); ++p) {
     plant::PlantFile plant;
     if (document.plants[p].file) plant = *document.plants[p].file;
-    apply_plant_overrides(plant, scene.plants[p].set, diagnostics);
+    simulation::apply_plant_overrides(plant, scene.plants[p].set, diagnostics);
   }
   if (diagnostics.has_errors()) throw UsageError(sentences(diagnostics.all()));
 }

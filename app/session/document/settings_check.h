@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/app/session/document/document.h"
+#include "app/session/document/document.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,8 @@
-#include "pedicel/app/session/live/draw_surface.h"
+#include "app/session/live/draw_surface.h"
 
 #include <cmath>
 
-#include "pedicel/app/run/colliders.h"
+#include "plugins/simulation/colliders.h"
 
 namespace pedicel::app {
 
@@ -39,13 +39,14 @@ std::optional<Vec3> meet(const geometry::Ray& ray, const DrawPlane& plane) {
 Surfaces::Surfaces(const Snapshot& snapshot) {
   if (!snapshot.assets) return;
   if (snapshot.assets->scene.ground)
-    add_ground_collider(colliders_, *snapshot.assets->scene.ground);
+    simulation::add_ground_collider(colliders_, *snapshot.assets->scene.ground);
   for (std::size_t b = 0; b < snapshot.bodies.size(); ++b)
-    add_body_colliders(colliders_, snapshot.bodies[b].info->description, static_cast<int>(b),
-                       snapshot.bodies[b].pose);
+    simulation::add_body_colliders(colliders_, snapshot.bodies[b].info->description,
+                                   static_cast<int>(b), snapshot.bodies[b].pose);
   if (snapshot.robot.present)
-    add_robot_colliders(colliders_, snapshot.assets->scene.robot->name, *snapshot.assets->robot,
-                        snapshot.assets->robot_fields, snapshot.robot.links);
+    simulation::add_robot_colliders(colliders_, snapshot.assets->scene.robot->name,
+                                    *snapshot.assets->robot, snapshot.assets->robot_fields,
+                                    snapshot.robot.links);
 }
 
 std::optional<SurfaceHit> Surfaces::hit(const geometry::Ray& ray, double reach) const {

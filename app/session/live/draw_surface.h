@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/coupling/collider.h"
-#include "pedicel/geometry/ray.h"
+#include "app/session/live/snapshot.h"
+#include "engine/geometry/ray.h"
+#include "plugins/coupling/collider.h"
 
 /// From rays to places in the world: what a stroke is drawn on.
 namespace pedicel::app {

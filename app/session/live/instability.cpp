@@ -1,10 +1,10 @@
-#include "pedicel/app/session/live/instability.h"
+#include "app/session/live/instability.h"
 
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 namespace pedicel::app {
 
-Instability instability_of(const Simulation& simulation, double last_good_time) {
+Instability instability_of(const simulation::Simulation& simulation, double last_good_time) {
   const world::WorldReport& report = simulation.world().report();
   Instability found;
   found.last_good_time = last_good_time;

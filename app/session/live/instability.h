@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/app/run/simulation.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -15,6 +15,6 @@ struct Instability {
 };
 
 /// Of a simulation whose last step has a fatal error.
-Instability instability_of(const Simulation& simulation, double last_good_time);
+Instability instability_of(const simulation::Simulation& simulation, double last_good_time);
 
 }  // namespace pedicel::app

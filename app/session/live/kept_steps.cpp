@@ -1,6 +1,6 @@
-#include "pedicel/app/session/live/kept_steps.h"
+#include "app/session/live/kept_steps.h"
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

@@ -3,7 +3,7 @@
 #include <deque>
 #include <memory>
 
-#include "pedicel/app/session/live/snapshot.h"
+#include "app/session/live/snapshot.h"
 
 namespace pedicel::app {
 

@@ -1,15 +1,16 @@
-#include "pedicel/app/session/live/live_run.h"
+#include "app/session/live/live_run.h"
 
 #include <algorithm>
 
 namespace pedicel::app {
 
-LiveRun::LiveRun(std::shared_ptr<const SceneAssets> assets) : first_(std::move(assets)) {
+LiveRun::LiveRun(std::shared_ptr<const simulation::SceneAssets> assets)
+    : first_(std::move(assets)) {
   make();
 }
 
 void LiveRun::make() {
-  simulation_ = std::make_unique<Simulation>(first_);
+  simulation_ = std::make_unique<simulation::Simulation>(first_);
   pull_ = std::make_unique<Pull>(*simulation_);
   simulation_->world().add(*pull_);
 }
@@ -41,7 +42,7 @@ void LiveRun::reset() {
   rewind();
 }
 
-void LiveRun::change_to(std::shared_ptr<const SceneAssets> assets) {
+void LiveRun::change_to(std::shared_ptr<const simulation::SceneAssets> assets) {
   act([assets](LiveRun& run) {
     run.simulation_->change_to(assets);
     run.pull_->renew();

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/app/session/live/pull.h"
+#include "app/session/live/pull.h"
+#include "plugins/simulation/scene_assets.h"
 
 namespace pedicel::app {
 
@@ -16,10 +16,10 @@ namespace pedicel::app {
 /// start is the one way that is right.
 class LiveRun {
  public:
-  explicit LiveRun(std::shared_ptr<const SceneAssets> assets);
+  explicit LiveRun(std::shared_ptr<const simulation::SceneAssets> assets);
 
-  Simulation& simulation() { return *simulation_; }
-  const Simulation& simulation() const { return *simulation_; }
+  simulation::Simulation& simulation() { return *simulation_; }
+  const simulation::Simulation& simulation() const { return *simulation_; }
   Pull& pull() { return *pull_; }
   const Pull& pull() const { return *pull_; }
   long steps() const { return simulation_->world().steps(); }
@@ -39,7 +39,7 @@ class LiveRun {
 
   bool unstable() const { return simulation_->world().report().errors & world::fatal_errors; }
   /// Goes on with other constants, from the next step on; it must be able to.
-  void change_to(std::shared_ptr<const SceneAssets> assets);
+  void change_to(std::shared_ptr<const simulation::SceneAssets> assets);
 
  private:
   struct Done {
@@ -48,8 +48,8 @@ class LiveRun {
   };
   void make();
 
-  std::shared_ptr<const SceneAssets> first_;  // what the run started with
-  std::unique_ptr<Simulation> simulation_;
+  std::shared_ptr<const simulation::SceneAssets> first_;  // what the run started with
+  std::unique_ptr<simulation::Simulation> simulation_;
   std::unique_ptr<Pull> pull_;  // of simulation_; outlives no step of it
   std::vector<Done> done_;
   std::size_t next_ = 0;  // of done_, to do again

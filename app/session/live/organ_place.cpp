@@ -1,6 +1,8 @@
-#include "pedicel/app/session/live/organ_place.h"
+#include "app/session/live/organ_place.h"
 
 #include <algorithm>
+
+#include "app/session/live/pull.h"
 
 namespace pedicel::app {
 

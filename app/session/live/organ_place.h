@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/app/session/live/pull.h"
-#include "pedicel/app/session/live/snapshot.h"
+#include "app/session/live/pull.h"
+#include "app/session/live/snapshot.h"
 
 namespace pedicel::app {
 

@@ -1,12 +1,12 @@
-#include "pedicel/app/session/live/pick_program.h"
+#include "app/session/live/pick_program.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/app/plants/plant_step.h"
-#include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/core/check.h"
-#include "pedicel/robot/cartesian_path.h"
+#include "app/session/live/robot_goal.h"
+#include "engine/core/check.h"
+#include "engine/robot/cartesian_path.h"
+#include "plugins/simulation/plants/plant_step.h"
 
 namespace pedicel::app {
 
@@ -66,7 +66,7 @@ double finger_distance(const Snapshot& now, const robot::KinematicModel& model,
   const Vec3 middle =
       links[static_cast<std::size_t>(now.robot.tool_link)] * now.assets->scene.robot->tool_offset;
   double least = 1.0;
-  const ShapeFields& fields = now.assets->robot_fields;
+  const simulation::ShapeFields& fields = now.assets->robot_fields;
   for (std::size_t l = 0; l < fields.size(); ++l) {
     if (!model.moves(gripper, static_cast<int>(l))) continue;
     const robot::Link& link = now.assets->robot->links[l];
@@ -85,7 +85,7 @@ FruitPlace find_fruit(const Snapshot& now, const std::string& organ) {
   for (const PlantSnapshot& plant : now.plants)
     for (int f = 0; f < static_cast<int>(plant.model->fruits.size()); ++f) {
       const cosserat::Fruit& fruit = plant.model->fruits[static_cast<std::size_t>(f)];
-      const std::string name = fruit_name(*plant.model, f);
+      const std::string name = simulation::fruit_name(*plant.model, f);
       const bool is_on = plant.state.alive[static_cast<std::size_t>(fruit.element)];
       if (is_on) names += (names.empty() ? "" : ", ") + name;
       if (name == organ && is_on)

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/robot/trajectory.h"
+#include "app/session/live/snapshot.h"
+#include "engine/robot/trajectory.h"
 
 /// How a robot takes a fruit off: to it, shut, pull.
 namespace pedicel::app {

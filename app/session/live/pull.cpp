@@ -1,4 +1,4 @@
-#include "pedicel/app/session/live/pull.h"
+#include "app/session/live/pull.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ void Pull::take_out() {
 
 // The body that the fruit on the pulled element has become.
 void Pull::find_body() {
-  for (const Detached& one : simulation_.plant_step().detached()) {
+  for (const simulation::Detached& one : simulation_.plant_step().detached()) {
     if (one.plant != place_->plant || one.body < 0) continue;
     const cosserat::RodModel& model = simulation_.rods().model(one.plant);
     if (model.fruits[one.event.fruit].element != place_->element) continue;

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/app/session/live/snapshot.h"
+#include "app/session/live/snapshot.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -22,7 +22,7 @@ struct PullPlace {
 class Pull : public world::Participant {
  public:
   /// The simulation must outlive it, and it the simulation's last step.
-  explicit Pull(Simulation& simulation) : simulation_(simulation) {}
+  explicit Pull(simulation::Simulation& simulation) : simulation_(simulation) {}
 
   void begin(const PullPlace& place, const Vec3& target_W);
   void move(const Vec3& target_W);
@@ -43,7 +43,7 @@ class Pull : public world::Participant {
   Vec3 point() const;
   Vec3 body_force() const;
 
-  Simulation& simulation_;
+  simulation::Simulation& simulation_;
   std::optional<PullPlace> place_;
   Vec3 target_W_ = Vec3::Zero();  // m
   bool in_ = false;               // the support is in the rods, the last one

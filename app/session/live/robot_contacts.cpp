@@ -1,4 +1,4 @@
-#include "pedicel/app/session/live/robot_contacts.h"
+#include "app/session/live/robot_contacts.h"
 
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 #include <btBulletCollisionCommon.h>
@@ -7,10 +7,10 @@
 #include <set>
 #include <utility>
 
-#include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/robot/bullet_types.h"
-#include "pedicel/robot/collision_shapes.h"
-#include "pedicel/world/rigid_shape.h"
+#include "app/session/live/robot_goal.h"
+#include "engine/robot/bullet_types.h"
+#include "engine/robot/collision_shapes.h"
+#include "engine/world/rigid_shape.h"
 
 namespace pedicel::app {
 
@@ -98,7 +98,7 @@ struct RobotContacts::Shapes {
         found.insert(name(hit->link) + " into " + body.info->description.name);
   }
 
-  std::shared_ptr<const SceneAssets> assets;
+  std::shared_ptr<const simulation::SceneAssets> assets;
   std::vector<robot::RigidGroup> groups;
   std::vector<robot::GroupShape> shapes;
   std::vector<std::unique_ptr<btCollisionObject>> objects;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/live/snapshot.h"
+#include "app/session/live/snapshot.h"
 
 namespace pedicel::app {
 

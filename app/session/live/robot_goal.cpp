@@ -1,6 +1,6 @@
-#include "pedicel/app/session/live/robot_goal.h"
+#include "app/session/live/robot_goal.h"
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "pedicel/app/session/live/snapshot.h"
-#include "pedicel/robot/kinematics.h"
+#include "app/session/live/snapshot.h"
+#include "engine/robot/kinematics.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/session/live/run_clock.h"
+#include "app/session/live/run_clock.h"
 
 namespace pedicel::app {
 

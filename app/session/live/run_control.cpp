@@ -1,8 +1,9 @@
-#include "pedicel/app/session/live/run_control.h"
+#include "app/session/live/run_control.h"
 
 #include <cmath>
 
-#include "pedicel/app/session/live/run_thread.h"
+#include "app/session/live/pull.h"
+#include "app/session/live/run_thread.h"
 
 namespace pedicel::app {
 
@@ -79,7 +80,7 @@ void RunControl::cut(const std::string& organ, double at) {
 void RunControl::move_robot(const Eigen::VectorXd& q) {
   impl_->thread.ask([q](RunPlayer& player) {
     player.act([q](LiveRun& run) {
-      if (RobotControl* robot = run.simulation().robot()) robot->go_to(q);
+      if (simulation::RobotControl* robot = run.simulation().robot()) robot->go_to(q);
     });
   });
 }
@@ -87,7 +88,7 @@ void RunControl::move_robot(const Eigen::VectorXd& q) {
 void RunControl::play_trajectory(robot::Trajectory trajectory) {
   impl_->thread.ask([trajectory = std::move(trajectory)](RunPlayer& player) {
     player.act([trajectory](LiveRun& run) {
-      if (RobotControl* robot = run.simulation().robot())
+      if (simulation::RobotControl* robot = run.simulation().robot())
         robot->set_trajectory(trajectory, run.simulation().world().time());
     });
   });
@@ -96,7 +97,7 @@ void RunControl::play_trajectory(robot::Trajectory trajectory) {
 void RunControl::play_loop(robot::Trajectory lead, robot::Trajectory lap) {
   impl_->thread.ask([lead = std::move(lead), lap = std::move(lap)](RunPlayer& player) {
     player.act([lead, lap](LiveRun& run) {
-      if (RobotControl* robot = run.simulation().robot())
+      if (simulation::RobotControl* robot = run.simulation().robot())
         robot->set_program({lead, lap, run.simulation().world().time()});
     });
   });
@@ -105,7 +106,7 @@ void RunControl::play_loop(robot::Trajectory lead, robot::Trajectory lap) {
 void RunControl::stop_robot() {
   impl_->thread.ask([](RunPlayer& player) {
     player.act([](LiveRun& run) {
-      if (RobotControl* robot = run.simulation().robot()) robot->stop();
+      if (simulation::RobotControl* robot = run.simulation().robot()) robot->stop();
     });
   });
 }

@@ -6,14 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/live/pull.h"
-#include "pedicel/app/session/live/run_log.h"
-#include "pedicel/app/session/live/snapshot.h"
+#include "app/session/live/run_log.h"
+#include "app/session/live/snapshot.h"
+#include "engine/robot/trajectory.h"
 
 namespace pedicel::app {
 
+struct PullPlace;
+
 /// Makes what is to be simulated; runs on the simulation's thread. Throws InvalidFile, UsageError.
-using MakeAssets = std::function<std::shared_ptr<const SceneAssets>()>;
+using MakeAssets = std::function<std::shared_ptr<const simulation::SceneAssets>()>;
 
 /// What became of a build, told once.
 struct BuildNews {

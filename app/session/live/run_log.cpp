@@ -1,17 +1,19 @@
-#include "pedicel/app/session/live/run_log.h"
+#include "app/session/live/run_log.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/app/plants/surface_strain.h"
+#include "plugins/simulation/plants/surface_strain.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
 namespace {
 
 /// Nothing where the simulation has no such organ.
-std::optional<OrganLoad> load_of(const Simulation& simulation, const std::string& organ) {
+std::optional<OrganLoad> load_of(const simulation::Simulation& simulation,
+                                 const std::string& organ) {
   for (int p = 0; p < simulation.rods().size(); ++p) {
     const cosserat::RodModel& model = simulation.rods().model(p);
     const cosserat::RodState& state = simulation.rods().state(p);
@@ -22,7 +24,7 @@ std::optional<OrganLoad> load_of(const Simulation& simulation, const std::string
     for (int e = 0; e < model.size(); ++e) {
       if (!state.alive[e] || model.elements[e].organ != found - model.organs.begin()) continue;
       const cosserat::JointLoad joint = cosserat::joint_load(model, state, e);
-      load.strain = std::max(load.strain, surface_strain(model, state, e));
+      load.strain = std::max(load.strain, simulation::surface_strain(model, state, e));
       load.force = std::max(load.force, joint.force.norm());
       load.moment = std::max(load.moment, joint.moment.norm());
     }
@@ -39,8 +41,8 @@ void push(std::deque<Row>& rows, Row row) {
 
 }  // namespace
 
-void RunLog::begin(const Simulation& simulation) {
-  std::vector<Channel> channels = channels_of(simulation);
+void RunLog::begin(const simulation::Simulation& simulation) {
+  std::vector<simulation::Channel> channels = simulation::channels_of(simulation);
   const std::lock_guard lock(mutex_);
   channels_ = std::move(channels);
   rows_.clear();
@@ -48,13 +50,13 @@ void RunLog::begin(const Simulation& simulation) {
   last_due_ = -1;
 }
 
-void RunLog::observe(const Simulation& simulation) {
+void RunLog::observe(const simulation::Simulation& simulation) {
   const double time = simulation.world().time();
   const long due = static_cast<long>(std::floor(time * rate + 1.0e-6));
   if (due <= last_due_) return;
   last_due_ = due;
   std::vector<double> row = {time};
-  for (const Channel& channel : channels_) row.push_back(channel.read());
+  for (const simulation::Channel& channel : channels_) row.push_back(channel.read());
   std::string organ;
   {
     const std::lock_guard lock(mutex_);
@@ -75,7 +77,7 @@ void RunLog::watch(std::string organ) {
 std::vector<std::string> RunLog::names() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> names;
-  for (const Channel& channel : channels_) names.push_back(channel.name);
+  for (const simulation::Channel& channel : channels_) names.push_back(channel.name);
   return names;
 }
 
@@ -83,7 +85,7 @@ RunLog::Series RunLog::series(const std::string& name) const {
   const std::lock_guard lock(mutex_);
   Series series;
   const auto found = std::find_if(channels_.begin(), channels_.end(),
-                                  [&](const Channel& one) { return one.name == name; });
+                                  [&](const simulation::Channel& one) { return one.name == name; });
   if (found == channels_.end()) return series;
   const std::size_t column = 1 + static_cast<std::size_t>(found - channels_.begin());
   for (const std::vector<double>& row : rows_) {

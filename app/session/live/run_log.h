@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/run/channels.h"
+#include "plugins/simulation/channels.h"
 
 namespace pedicel::app {
 
@@ -25,9 +25,9 @@ class RunLog {
   static constexpr double rate = 100.0;  ///< Hz of simulated time
 
   /// Begins anew with another simulation, or another run of one; it must live while rows are added.
-  void begin(const Simulation& simulation);
+  void begin(const simulation::Simulation& simulation);
   /// A row where one is due.
-  void observe(const Simulation& simulation);
+  void observe(const simulation::Simulation& simulation);
   void watch(std::string organ);
 
   std::vector<std::string> names() const;
@@ -42,7 +42,7 @@ class RunLog {
 
  private:
   mutable std::mutex mutex_;
-  std::vector<Channel> channels_;
+  std::vector<simulation::Channel> channels_;
   std::deque<std::vector<double>> rows_;  // time first
   std::deque<OrganLoad> loads_;
   std::string organ_;

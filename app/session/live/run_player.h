@@ -4,13 +4,13 @@
 #include <memory>
 #include <optional>
 
-#include "pedicel/app/session/live/instability.h"
-#include "pedicel/app/session/live/kept_steps.h"
-#include "pedicel/app/session/live/run_clock.h"
-#include "pedicel/app/session/live/run_control.h"
-#include "pedicel/app/session/live/run_rates.h"
-#include "pedicel/app/session/live/snapshot_maker.h"
-#include "pedicel/app/session/live/snapshot_slot.h"
+#include "app/session/live/instability.h"
+#include "app/session/live/kept_steps.h"
+#include "app/session/live/run_clock.h"
+#include "app/session/live/run_control.h"
+#include "app/session/live/run_rates.h"
+#include "app/session/live/snapshot_maker.h"
+#include "app/session/live/snapshot_slot.h"
 
 namespace pedicel::app {
 
@@ -52,7 +52,7 @@ class RunPlayer {
   RunLog log;
 
  private:
-  void take_assets(const std::shared_ptr<const SceneAssets>& assets, bool restart);
+  void take_assets(const std::shared_ptr<const simulation::SceneAssets>& assets, bool restart);
   void begin_anew();
   void replay_to(long step);
   bool show(long step);

@@ -1,4 +1,4 @@
-#include "pedicel/app/session/live/run_rates.h"
+#include "app/session/live/run_rates.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,7 +1,7 @@
-#include "pedicel/app/session/live/run_thread.h"
+#include "app/session/live/run_thread.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/stop.h"
+#include "engine/core/check.h"
+#include "engine/core/stop.h"
 
 namespace pedicel::app {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-#include "pedicel/app/session/live/run_player.h"
+#include "app/session/live/run_player.h"
 
 namespace pedicel::app {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/plants/scene_ties.h"
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/world/recorder.h"
-#include "pedicel/world/step.h"
+#include "engine/world/recorder.h"
+#include "engine/world/step.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/simulation/plants/scene_ties.h"
+#include "plugins/simulation/scene_assets.h"
 
 namespace pedicel::app {
 
@@ -58,7 +58,7 @@ struct RobotSnapshot {
 /// A string that holds a plant, as it runs now.
 struct TieSnapshot {
   int number = 0;  ///< in the scene's list, from 0
-  SceneTies::Course course;
+  simulation::SceneTies::Course course;
 };
 
 /// The spring of a pull, as it acts.
@@ -81,7 +81,7 @@ struct Snapshot {
   double last_good_time = 0.0;                   ///< s
   std::uint64_t document_hash = 0;               ///< Document::state_hash() of what is simulated
 
-  std::shared_ptr<const SceneAssets> assets;  ///< null: nothing was built yet
+  std::shared_ptr<const simulation::SceneAssets> assets;  ///< null: nothing was built yet
   long step = 0;
   double time = 0.0;  ///< s
   world::WorldReport report;

@@ -1,7 +1,9 @@
-#include "pedicel/app/session/live/snapshot_maker.h"
+#include "app/session/live/snapshot_maker.h"
 
-#include "pedicel/app/plants/surface_strain.h"
-#include "pedicel/app/run/channels.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/simulation/channels.h"
+#include "plugins/simulation/plants/surface_strain.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 
@@ -20,7 +22,7 @@ void SnapshotMaker::forget(bool new_stage) {
 }
 
 std::shared_ptr<Snapshot> SnapshotMaker::make(const LiveRun& run) {
-  const Simulation& simulation = run.simulation();
+  const simulation::Simulation& simulation = run.simulation();
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->number = ++number_;
   snapshot->stage = stage_;
@@ -33,7 +35,7 @@ std::shared_ptr<Snapshot> SnapshotMaker::make(const LiveRun& run) {
   add_plants(simulation, *snapshot);
   add_strain(simulation, *snapshot);
   add_bodies(simulation, *snapshot);
-  for (const SceneTies::One& tie : simulation.ties().all())
+  for (const simulation::SceneTies::One& tie : simulation.ties().all())
     if (const auto course = simulation.ties().course(tie))
       snapshot->ties.push_back({tie.number, *course});
   add_contacts(simulation, *snapshot);
@@ -48,15 +50,15 @@ std::shared_ptr<Snapshot> SnapshotMaker::again(const Snapshot& before) {
   return snapshot;
 }
 
-void SnapshotMaker::add_events(const Simulation& simulation) {
+void SnapshotMaker::add_events(const simulation::Simulation& simulation) {
   const std::size_t count =
       simulation.plant_step().detached().size() + simulation.cutting().events().size();
   if (events_ && events_->size() == count) return;
-  events_ = std::make_shared<const std::vector<world::Event>>(events_of(simulation));
+  events_ = std::make_shared<const std::vector<world::Event>>(simulation::events_of(simulation));
   models_.clear();  // what has lost a fruit is lighter
 }
 
-void SnapshotMaker::add_plants(const Simulation& simulation, Snapshot& snapshot) {
+void SnapshotMaker::add_plants(const simulation::Simulation& simulation, Snapshot& snapshot) {
   const cosserat::RodSystem& rods = simulation.rods();
   for (int p = static_cast<int>(models_.size()); p < rods.size(); ++p)
     models_.push_back(std::make_shared<const cosserat::RodModel>(rods.model(p)));
@@ -68,24 +70,24 @@ void SnapshotMaker::add_plants(const Simulation& simulation, Snapshot& snapshot)
   }
 }
 
-void SnapshotMaker::add_strain(const Simulation& simulation, Snapshot& snapshot) const {
+void SnapshotMaker::add_strain(const simulation::Simulation& simulation, Snapshot& snapshot) const {
   const cosserat::RodSystem& rods = simulation.rods();
   for (int p = 0; p < rods.size(); ++p)
     for (int e = 0; e < rods.model(p).size(); ++e) {
       if (!rods.state(p).alive[e]) continue;
-      const double strain = surface_strain(rods.model(p), rods.state(p), e);
+      const double strain = simulation::surface_strain(rods.model(p), rods.state(p), e);
       if (!(strain > snapshot.largest_strain)) continue;
       snapshot.largest_strain = strain;
       snapshot.largest_strain_organ = rods.model(p).organs[rods.model(p).elements[e].organ];
     }
 }
 
-void SnapshotMaker::add_bodies(const Simulation& simulation, Snapshot& snapshot) {
+void SnapshotMaker::add_bodies(const simulation::Simulation& simulation, Snapshot& snapshot) {
   const world::SimWorld& world = simulation.world();
   for (int b = static_cast<int>(bodies_.size()); b < world.body_count(); ++b) {
     auto info = std::make_shared<BodyInfo>();
     info->description = world.body(b);
-    for (const Detached& fruit : simulation.plant_step().detached()) {
+    for (const simulation::Detached& fruit : simulation.plant_step().detached()) {
       if (fruit.body != b) continue;
       info->plant = fruit.plant;
       info->fruit = fruit.event.fruit;
@@ -98,7 +100,7 @@ void SnapshotMaker::add_bodies(const Simulation& simulation, Snapshot& snapshot)
     snapshot.bodies.push_back({bodies_[b], world.body_pose(b)});
 }
 
-void SnapshotMaker::add_contacts(const Simulation& simulation, Snapshot& snapshot) {
+void SnapshotMaker::add_contacts(const simulation::Simulation& simulation, Snapshot& snapshot) {
   const cosserat::RodSystem& rods = simulation.rods();
   for (int p = 0; p < rods.size(); ++p)
     for (const cosserat::ContactForce& one : rods.contact_forces(p)) {
@@ -119,8 +121,8 @@ void SnapshotMaker::add_contacts(const Simulation& simulation, Snapshot& snapsho
   snapshot.colliders = colliders_;
 }
 
-void SnapshotMaker::add_robot(const Simulation& simulation, Snapshot& snapshot) const {
-  const RobotControl* robot = simulation.robot();
+void SnapshotMaker::add_robot(const simulation::Simulation& simulation, Snapshot& snapshot) const {
+  const simulation::RobotControl* robot = simulation.robot();
   if (!robot) return;
   snapshot.robot = {true,
                     robot->tool_link(),

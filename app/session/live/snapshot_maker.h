@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/app/session/live/live_run.h"
-#include "pedicel/app/session/live/snapshot.h"
+#include "app/session/live/live_run.h"
+#include "app/session/live/snapshot.h"
 
 namespace pedicel::app {
 
@@ -23,12 +23,12 @@ class SnapshotMaker {
   std::shared_ptr<Snapshot> again(const Snapshot& before);
 
  private:
-  void add_plants(const Simulation& simulation, Snapshot& snapshot);
-  void add_strain(const Simulation& simulation, Snapshot& snapshot) const;
-  void add_bodies(const Simulation& simulation, Snapshot& snapshot);
-  void add_contacts(const Simulation& simulation, Snapshot& snapshot);
-  void add_robot(const Simulation& simulation, Snapshot& snapshot) const;
-  void add_events(const Simulation& simulation);
+  void add_plants(const simulation::Simulation& simulation, Snapshot& snapshot);
+  void add_strain(const simulation::Simulation& simulation, Snapshot& snapshot) const;
+  void add_bodies(const simulation::Simulation& simulation, Snapshot& snapshot);
+  void add_contacts(const simulation::Simulation& simulation, Snapshot& snapshot);
+  void add_robot(const simulation::Simulation& simulation, Snapshot& snapshot) const;
+  void add_events(const simulation::Simulation& simulation);
 
   std::uint64_t number_ = 0, stage_ = 0;
   std::vector<std::shared_ptr<const cosserat::RodModel>> models_;

@@ -1,4 +1,4 @@
-#include "pedicel/app/session/live/snapshot_slot.h"
+#include "app/session/live/snapshot_slot.h"
 
 #include <utility>
 

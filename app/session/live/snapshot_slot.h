@@ -5,7 +5,7 @@
 #include <memory>
 #include <mutex>
 
-#include "pedicel/app/session/live/snapshot.h"
+#include "app/session/live/snapshot.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/session/measured/background_job.h"
+#include "app/session/measured/background_job.h"
 
 #include <exception>
 

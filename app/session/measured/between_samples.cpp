@@ -1,4 +1,4 @@
-#include "pedicel/app/session/measured/between_samples.h"
+#include "app/session/measured/between_samples.h"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
-#include "pedicel/app/session/measured/diagnosis_card.h"
+#include "app/session/measured/diagnosis_card.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/report/report_words.h"
-#include "pedicel/discrepancy/report/scene_report.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/report/report_words.h"
+#include "plugins/discrepancy/report/scene_report.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::app {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 
 namespace pedicel::app {
 

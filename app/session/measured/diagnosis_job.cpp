@@ -1,4 +1,4 @@
-#include "pedicel/app/session/measured/diagnosis_job.h"
+#include "app/session/measured/diagnosis_job.h"
 
 #include <algorithm>
 

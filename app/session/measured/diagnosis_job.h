@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/measured/background_job.h"
+#include "app/session/measured/background_job.h"
 
 namespace pedicel::app {
 

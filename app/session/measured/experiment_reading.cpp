@@ -1,6 +1,6 @@
-#include "pedicel/app/session/measured/experiment_reading.h"
+#include "app/session/measured/experiment_reading.h"
 
-#include "pedicel/discrepancy/data/experiment_progress.h"
+#include "plugins/discrepancy/data/experiment_progress.h"
 
 namespace pedicel::app {
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "pedicel/app/session/measured/background_job.h"
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
+#include "app/session/measured/background_job.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::app {
 

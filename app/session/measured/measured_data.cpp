@@ -1,4 +1,4 @@
-#include "pedicel/app/session/measured/measured_data.h"
+#include "app/session/measured/measured_data.h"
 
 #include <utility>
 

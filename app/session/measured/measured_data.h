@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/measured/measured_models.h"
-#include "pedicel/app/session/measured/model_paths.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "app/session/measured/measured_models.h"
+#include "app/session/measured/model_paths.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
 
 namespace pedicel::app {
 

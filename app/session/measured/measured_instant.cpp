@@ -1,10 +1,10 @@
-#include "pedicel/app/session/measured/measured_instant.h"
+#include "app/session/measured/measured_instant.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/app/session/measured/between_samples.h"
+#include "app/session/measured/between_samples.h"
 
 namespace pedicel::app {
 

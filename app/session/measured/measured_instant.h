@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/app/session/measured/measured_data.h"
+#include "app/session/measured/measured_data.h"
 
 namespace pedicel::app {
 

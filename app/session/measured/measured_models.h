@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/session/measured/diagnosis_job.h"
-#include "pedicel/app/session/measured/path_runs.h"
-#include "pedicel/core/check.h"
+#include "app/session/measured/diagnosis_job.h"
+#include "app/session/measured/path_runs.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 

@@ -1,9 +1,9 @@
-#include "pedicel/app/session/measured/measured_scene.h"
+#include "app/session/measured/measured_scene.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::app {
 

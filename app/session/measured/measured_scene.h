@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "pedicel/app/session/measured/measured_models.h"
-#include "pedicel/app/session/measured/scene_paths.h"
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
-#include "pedicel/robot/kinematics.h"
+#include "app/session/measured/measured_models.h"
+#include "app/session/measured/scene_paths.h"
+#include "engine/robot/kinematics.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 
 namespace pedicel::app {
 

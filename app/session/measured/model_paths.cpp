@@ -1,10 +1,10 @@
-#include "pedicel/app/session/measured/model_paths.h"
+#include "app/session/measured/model_paths.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/data/places.h"
+#include "plugins/discrepancy/data/places.h"
 
 namespace pedicel::app {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "pedicel/discrepancy/simulate/simulator.h"
+#include "plugins/discrepancy/simulate/simulator.h"
 
 /// What models say of an experiment's trials, as the window shows it.
 namespace pedicel::app {

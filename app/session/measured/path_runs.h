@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/app/session/measured/background_job.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "app/session/measured/background_job.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,8 @@
-#include "pedicel/app/session/measured/scene_instant.h"
+#include "app/session/measured/scene_instant.h"
 
 #include <limits>
 
-#include "pedicel/app/session/measured/between_samples.h"
+#include "app/session/measured/between_samples.h"
 
 namespace pedicel::app {
 

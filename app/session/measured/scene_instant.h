@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pedicel/app/session/measured/measured_instant.h"
-#include "pedicel/app/session/measured/measured_scene.h"
+#include "app/session/measured/measured_instant.h"
+#include "app/session/measured/measured_scene.h"
 
 namespace pedicel::app {
 

@@ -1,4 +1,4 @@
-#include "pedicel/app/session/measured/scene_paths.h"
+#include "app/session/measured/scene_paths.h"
 
 #include <cmath>
 #include <limits>

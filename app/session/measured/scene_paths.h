@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/app/session/measured/model_paths.h"
-#include "pedicel/discrepancy/scene/scene_simulator.h"
+#include "app/session/measured/model_paths.h"
+#include "plugins/discrepancy/scene_predict/scene_simulator.h"
 
 /// What models say of a measured scene's trials, as the window shows it.
 namespace pedicel::app {

@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/contact/axis_and_triangle.h"
+#include "plugins/cosserat/contact/axis_and_triangle.h"
 
 #include <Eigen/LU>
 #include <algorithm>

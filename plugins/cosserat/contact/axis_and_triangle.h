@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::cosserat {
 

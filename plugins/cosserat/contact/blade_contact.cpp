@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/contact/blade_contact.h"
+#include "plugins/cosserat/contact/blade_contact.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/cosserat/contact/axis_and_triangle.h"
-#include "pedicel/cosserat/contact/plant_blades.h"
+#include "plugins/cosserat/contact/axis_and_triangle.h"
+#include "plugins/cosserat/contact/plant_blades.h"
 
 namespace pedicel::cosserat {
 

@@ -7,8 +7,8 @@
 #define PEDICEL_COSSERAT_CAPSULE_LANES_INL_H
 #endif
 
-#include "pedicel/cosserat/contact/capsules.h"
-#include "pedicel/cosserat/lanes/lane_math-inl.h"
+#include "plugins/cosserat/contact/capsules.h"
+#include "plugins/cosserat/lanes/lane_math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {

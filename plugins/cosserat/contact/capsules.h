@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/cosserat/lanes/lanes.h"
+#include "engine/core/frames.h"
+#include "plugins/cosserat/lanes/lanes.h"
 
 namespace pedicel::cosserat {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact_drive.h"
-#include "pedicel/cosserat/model/rod_state.h"
+#include "plugins/cosserat/contact/contact_drive.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel {
 class ThreadPool;

@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/contact/contact_drive.h"
+#include "plugins/cosserat/contact/contact_drive.h"
 
 #include <algorithm>
 #include <array>

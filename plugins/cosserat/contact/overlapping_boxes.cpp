@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/contact/overlapping_boxes.h"
+#include "plugins/cosserat/contact/overlapping_boxes.h"
 
 #include <cmath>
 #include <limits>
@@ -7,13 +7,13 @@
 // Compiled once for each instruction set, as lane_kernels.cpp is.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "pedicel/cosserat/contact/overlapping_boxes.cpp"
+#define HWY_TARGET_INCLUDE "plugins/cosserat/contact/overlapping_boxes.cpp"
 // clang-format off: foreach_target.h includes this file again and must come first.
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 // clang-format on
 
-#include "pedicel/cosserat/lanes/lane_math-inl.h"
+#include "plugins/cosserat/lanes/lane_math-inl.h"
 
 #ifndef PEDICEL_COSSERAT_OVERLAPPING_BOXES
 #define PEDICEL_COSSERAT_OVERLAPPING_BOXES

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/cosserat/contact/capsules.h"
-#include "pedicel/cosserat/lanes/parted_loop.h"
+#include "engine/core/frames.h"
+#include "plugins/cosserat/contact/capsules.h"
+#include "plugins/cosserat/lanes/parted_loop.h"
 
 namespace pedicel::cosserat {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "pedicel/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/contact/self_contact.h"
 
 namespace pedicel::cosserat {
 

@@ -5,11 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/cosserat/contact/capsules.h"
-#include "pedicel/cosserat/contact/contact.h"
-#include "pedicel/cosserat/contact/overlapping_boxes.h"
-#include "pedicel/cosserat/contact/shape_motion.h"
-#include "pedicel/cosserat/contact/touching_pairs.h"
+#include "plugins/cosserat/contact/capsules.h"
+#include "plugins/cosserat/contact/contact.h"
+#include "plugins/cosserat/contact/overlapping_boxes.h"
+#include "plugins/cosserat/contact/shape_motion.h"
+#include "plugins/cosserat/contact/self_contact_settings.h"
+#include "plugins/cosserat/contact/touching_pairs.h"
 
 namespace pedicel::cosserat {
 
@@ -25,13 +26,6 @@ constexpr double most_stiffening = 10.0;  ///< 1, of the progressive spring
 /// Sets stiffness and margin of one side of a self-contact to the tangent of its progressive
 /// spring: the same force and slope at its gap.
 void take_tangent(ContactPoint& point);
-
-struct SelfContactSettings {
-  double stiffness = 1.0e5;        ///< N/m, at most, stem against stem, > 0
-  double fruit_stiffness = 1.0e4;  ///< N/m, at most, where one is a fruit, > 0
-  double friction = 0.5;           ///< 1, Coulomb, >= 0
-  double margin = 2.0e-4;          ///< m, two surfaces begin to push at this gap, > 0
-};
 
 /// N/m, of the spring between two parts where it begins: limited by what the lighter one's inertia
 /// (`lighter`, kg) can follow in a step. A stiffer one would glue light parts to where they

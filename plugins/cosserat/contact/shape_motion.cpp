@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/contact/shape_motion.h"
+#include "plugins/cosserat/contact/shape_motion.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,13 +6,13 @@
 // Compiled once for each instruction set, as lane_kernels.cpp is.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "pedicel/cosserat/contact/shape_motion.cpp"
+#define HWY_TARGET_INCLUDE "plugins/cosserat/contact/shape_motion.cpp"
 // clang-format off: foreach_target.h includes this file again and must come first.
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 // clang-format on
 
-#include "pedicel/cosserat/contact/capsule_lanes-inl.h"
+#include "plugins/cosserat/contact/capsule_lanes-inl.h"
 
 #ifndef PEDICEL_COSSERAT_SHAPE_MOTION
 #define PEDICEL_COSSERAT_SHAPE_MOTION

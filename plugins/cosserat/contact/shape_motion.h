@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/contact/capsules.h"
-#include "pedicel/cosserat/lanes/lanes.h"
-#include "pedicel/cosserat/model/rod_state.h"
+#include "plugins/cosserat/contact/capsules.h"
+#include "plugins/cosserat/lanes/lanes.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel::cosserat {
 

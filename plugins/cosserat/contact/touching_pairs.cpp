@@ -1,16 +1,16 @@
-#include "pedicel/cosserat/contact/touching_pairs.h"
+#include "plugins/cosserat/contact/touching_pairs.h"
 
 // Compiled once for each instruction set, as lane_kernels.cpp is.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "pedicel/cosserat/contact/touching_pairs.cpp"
+#define HWY_TARGET_INCLUDE "plugins/cosserat/contact/touching_pairs.cpp"
 // clang-format off: foreach_target.h includes this file again and must come first.
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 // clang-format on
 
-#include "pedicel/cosserat/contact/capsule_lanes-inl.h"
-#include "pedicel/cosserat/lanes/state_lanes-inl.h"
+#include "plugins/cosserat/contact/capsule_lanes-inl.h"
+#include "plugins/cosserat/lanes/state_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {

@@ -1,10 +1,10 @@
-#include "pedicel/cosserat/lanes/instruction_set.h"
+#include "plugins/cosserat/lanes/instruction_set.h"
 
 #include <algorithm>
 #include <vector>
 
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
 
 namespace pedicel::cosserat {
 

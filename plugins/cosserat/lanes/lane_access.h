@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/core/frames.h"
-#include "pedicel/cosserat/lanes/lanes.h"
+#include "engine/core/frames.h"
+#include "plugins/cosserat/lanes/lanes.h"
 
 namespace pedicel::cosserat {
 

@@ -7,8 +7,8 @@
 #define PEDICEL_COSSERAT_LANE_ELEMENT_INL_H
 #endif
 
-#include "pedicel/cosserat/lanes/lane_extensions-inl.h"
-#include "pedicel/cosserat/lanes/lane_math-inl.h"
+#include "plugins/cosserat/lanes/lane_extensions-inl.h"
+#include "plugins/cosserat/lanes/lane_math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {

@@ -15,7 +15,7 @@
 #define PEDICEL_COSSERAT_LANE_ELIMINATION_INL_H
 #endif
 
-#include "pedicel/cosserat/lanes/lane_element-inl.h"
+#include "plugins/cosserat/lanes/lane_element-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {

@@ -9,16 +9,16 @@
 
 #include <limits>
 
-#include "pedicel/cosserat/lanes/lane_math-inl.h"
-#include "pedicel/effects/hysteresis-inl.h"
-#include "pedicel/effects/internal_friction-inl.h"
-#include "pedicel/effects_list/joint_terms-inl.h"
+#include "plugins/cosserat/lanes/lane_math-inl.h"
+#include "plugins/cosserat/laws/hysteresis-inl.h"
+#include "plugins/cosserat/laws/internal_friction-inl.h"
+#include "plugins/cosserat/laws/joint_terms-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {
 namespace HWY_NAMESPACE {
 
-namespace formula = effects::HWY_NAMESPACE;
+namespace formula = laws::HWY_NAMESPACE;
 
 /// What bends a joint: conjugate moment, energy, and the Hessian's bending part, positive definite.
 struct Bending {
@@ -81,8 +81,8 @@ HWY_INLINE Bending bend_joint(const RowArrays& rows, const Pack& pack, int row, 
   formula::BendTerms<V> terms{out.moment.x, out.moment.y, zero, linear.x,
                               linear.y,     zero,         zero, zero};
   if (pack.terms) {
-    V numbers[effects::joint_term_numbers];
-    for (int i = 0; i < effects::joint_term_numbers; ++i)
+    V numbers[laws::joint_term_numbers];
+    for (int i = 0; i < laws::joint_term_numbers; ++i)
       numbers[i] = load(rows.joint_term[row].number[i] + lane);
     formula::add_joint_terms(pack.terms, numbers, joint, terms);
   }

@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
 
 #include <memory>
 
@@ -6,15 +6,15 @@
 // one.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "pedicel/cosserat/lanes/lane_kernels.cpp"
+#define HWY_TARGET_INCLUDE "plugins/cosserat/lanes/lane_kernels.cpp"
 // clang-format off: foreach_target.h includes this file again and must come first.
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 // clang-format on
 
-#include "pedicel/cosserat/lanes/lane_element-inl.h"
-#include "pedicel/cosserat/lanes/lane_elimination-inl.h"
-#include "pedicel/cosserat/lanes/lane_loops-inl.h"
+#include "plugins/cosserat/lanes/lane_element-inl.h"
+#include "plugins/cosserat/lanes/lane_elimination-inl.h"
+#include "plugins/cosserat/lanes/lane_loops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {

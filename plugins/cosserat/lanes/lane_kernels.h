@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cosserat/lanes/lanes.h"
+#include "plugins/cosserat/lanes/lanes.h"
 
 namespace pedicel::cosserat {
 

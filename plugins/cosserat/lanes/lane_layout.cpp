@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/lanes/lane_layout.h"
+#include "plugins/cosserat/lanes/lane_layout.h"
 
 #include <algorithm>
 #include <numeric>

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/lanes/lanes.h"
-#include "pedicel/cosserat/lanes/loop_shape.h"
-#include "pedicel/cosserat/model/rod_model.h"
+#include "plugins/cosserat/lanes/lanes.h"
+#include "plugins/cosserat/lanes/loop_shape.h"
+#include "plugins/cosserat/model/rod_model.h"
 
 namespace pedicel::cosserat {
 

@@ -14,8 +14,8 @@
 #define PEDICEL_COSSERAT_LANE_LOOPS_INL_H
 #endif
 
-#include "pedicel/cosserat/lanes/lane_elimination-inl.h"
-#include "pedicel/cosserat/lanes/loop_work.h"
+#include "plugins/cosserat/lanes/lane_elimination-inl.h"
+#include "plugins/cosserat/lanes/loop_work.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {

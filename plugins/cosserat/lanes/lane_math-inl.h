@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "hwy/highway.h"
-#include "pedicel/cosserat/lanes/lanes.h"
+#include "plugins/cosserat/lanes/lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/cosserat/lanes/fetch_ahead.h"
-#include "pedicel/effects_list/joint_terms.h"
+#include "plugins/cosserat/lanes/fetch_ahead.h"
+#include "plugins/cosserat/laws/joint_terms.h"
 
 namespace pedicel::cosserat {
 
@@ -67,7 +67,7 @@ struct alignas(64) ExtensionRow {
 
 /// Numbers of eight joints' terms (JointLaw::terms).
 struct alignas(64) JointTermRow {
-  Lanes number[effects::joint_term_numbers];
+  Lanes number[laws::joint_term_numbers];
 };
 
 /// One branch of eight joints (JointBranch). Over a step during which phi changes evenly

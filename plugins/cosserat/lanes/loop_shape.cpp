@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/lanes/loop_shape.h"
+#include "plugins/cosserat/lanes/loop_shape.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::cosserat {
 

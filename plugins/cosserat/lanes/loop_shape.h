@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_model.h"
+#include "plugins/cosserat/model/rod_model.h"
 
 namespace pedicel::cosserat {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/cosserat/lanes/lanes.h"
-#include "pedicel/cosserat/lanes/loop_shape.h"
+#include "plugins/cosserat/lanes/lanes.h"
+#include "plugins/cosserat/lanes/loop_shape.h"
 
 namespace pedicel::cosserat {
 

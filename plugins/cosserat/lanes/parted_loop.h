@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "pedicel/core/thread_pool.h"
+#include "engine/core/thread_pool.h"
 
 namespace pedicel::cosserat {
 

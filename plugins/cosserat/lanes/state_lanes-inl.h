@@ -9,8 +9,8 @@
 
 #include <cstdint>
 
-#include "pedicel/cosserat/lanes/lane_math-inl.h"
-#include "pedicel/cosserat/model/rod_state.h"
+#include "plugins/cosserat/lanes/lane_math-inl.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pedicel::cosserat {

@@ -1,9 +1,9 @@
-#include "pedicel/cosserat/model/joined_model.h"
+#include "plugins/cosserat/model/joined_model.h"
 
 #include <algorithm>
 #include <iterator>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::cosserat {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_state.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel::cosserat {
 

@@ -1,15 +1,15 @@
-#include "pedicel/cosserat/model/joint_law.h"
+#include "plugins/cosserat/model/joint_law.h"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/effects/hysteresis-inl.h"
-#include "pedicel/effects/internal_friction-inl.h"
-#include "pedicel/effects_list/joint_terms-inl.h"
-#include "pedicel/effects_list/joint_terms.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/laws/hysteresis-inl.h"
+#include "plugins/cosserat/laws/internal_friction-inl.h"
+#include "plugins/cosserat/laws/joint_terms-inl.h"
+#include "plugins/cosserat/laws/joint_terms.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel::cosserat {
 
@@ -41,15 +41,15 @@ double hung_share(const JointLaw& law) {
 }  // namespace
 
 double& JointLaw::term(std::string_view effect, int number) {
-  const int first = effects::first_number(effect);
+  const int first = laws::first_number(effect);
   PEDICEL_ASSERT(first >= 0);
-  terms.resize(effects::joint_term_numbers, 0.0);
+  terms.resize(laws::joint_term_numbers, 0.0);
   return terms[first + number];
 }
 
 unsigned JointLaw::terms_there() const {
   unsigned bits = 0;
-  for (const effects::JointTerm& one : effects::joint_terms)
+  for (const laws::JointTerm& one : laws::joint_terms)
     if (!terms.empty() && terms[one.first] != 0.0) bits |= one.bit;
   return bits;
 }
@@ -196,7 +196,7 @@ void start_memory(const RodModel& model, RodState& state) {
 }
 
 JointResponse joint_response(const RodModel& model, const RodState& state, int e, const Vec3& phi) {
-  namespace formula = effects::HWY_NAMESPACE;
+  namespace formula = laws::HWY_NAMESPACE;
   const Vec3 k = stiffness_factor(model, state.time) * model.elements[e].bend_stiffness;
   if (model.laws.empty()) return {k.cwiseProduct(phi), 0.5 * phi.dot(k.cwiseProduct(phi))};
   const JointLaw& law = model.laws[e];

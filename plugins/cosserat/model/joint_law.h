@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::cosserat {
 
@@ -32,7 +32,7 @@ struct JointBranch {
 ///
 ///   K [elastic phi + deviation phi + anchored o] + sum share K (phi - z) + terms
 ///
-/// The terms are those of effects with a formula of their own (plugins/effects/NAME-inl.h), which
+/// The terms are those of effects with a formula of their own (plugins/cosserat/laws/NAME-inl.h), which
 /// is elastic. Twist has no slider and no term: what sliders take of `elastic` it keeps.
 struct JointLaw {
   double elastic = 1.0;      ///< 1, share of the stiffness that is there in the settled shape too

@@ -1,11 +1,11 @@
-#include "pedicel/cosserat/model/rod_model.h"
+#include "plugins/cosserat/model/rod_model.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/model/rotation.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/model/rotation.h"
 
 namespace pedicel::cosserat {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/cosserat/model/joint_law.h"
-#include "pedicel/cosserat/model/section.h"
+#include "engine/core/frames.h"
+#include "plugins/cosserat/model/joint_law.h"
+#include "plugins/cosserat/model/section.h"
 
 namespace pedicel::cosserat {
 

@@ -1,8 +1,8 @@
-#include "pedicel/cosserat/model/rod_state.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 #include <cmath>
 
-#include "pedicel/cosserat/model/rotation.h"
+#include "plugins/cosserat/model/rotation.h"
 
 namespace pedicel::cosserat {
 

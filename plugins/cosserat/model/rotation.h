@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::cosserat {
 

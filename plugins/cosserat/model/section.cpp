@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/model/section.h"
+#include "plugins/cosserat/model/section.h"
 
 #include <algorithm>
 #include <cmath>

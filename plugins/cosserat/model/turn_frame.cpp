@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/model/turn_frame.h"
+#include "plugins/cosserat/model/turn_frame.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
-#include "pedicel/cosserat/solver/attachments.h"
+#include "plugins/cosserat/solver/attachments.h"
 
 #include <algorithm>
 
-#include "pedicel/cosserat/model/rotation.h"
+#include "plugins/cosserat/model/rotation.h"
 
 namespace pedicel::cosserat {
 

@@ -3,23 +3,12 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/lanes/diagonal_blocks.h"
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "plugins/cosserat/lanes/diagonal_blocks.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/cosserat/solver/rod_solver.h"
+#include "plugins/cosserat/solver/strings.h"
 
 namespace pedicel::cosserat {
-
-/// A string from a place of a plant to a fixed point: it pulls where it is longer than `length`,
-/// and bears no pressure.
-struct Tie {
-  int element = 0;
-  double back = 0.0;             ///< m
-  Vec3 anchor_W = Vec3::Zero();  ///< m
-  double length = 0.0;           ///< m, where it becomes taut
-  double stiffness = 0.0;        ///< N/m
-};
-/// N, with which it pulls in a state.
-double tension(const RodState& state, const Tie& tie);
 
 /// Loads, ties, strands, supports and welds of one plant as terms of the incremental potential of a
 /// step.

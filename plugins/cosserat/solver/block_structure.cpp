@@ -1,10 +1,10 @@
-#include "pedicel/cosserat/solver/block_structure.h"
+#include "plugins/cosserat/solver/block_structure.h"
 
 #include <algorithm>
 #include <set>
 #include <utility>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::cosserat {
 

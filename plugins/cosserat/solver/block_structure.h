@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_model.h"
+#include "plugins/cosserat/model/rod_model.h"
 
 namespace pedicel::cosserat {
 

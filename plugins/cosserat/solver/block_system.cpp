@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/solver/block_system.h"
+#include "plugins/cosserat/solver/block_system.h"
 
 #include <algorithm>
 #include <cmath>

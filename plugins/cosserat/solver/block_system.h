@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "pedicel/cosserat/lanes/diagonal_blocks.h"
-#include "pedicel/cosserat/model/rod_model.h"
-#include "pedicel/cosserat/solver/block_structure.h"
+#include "plugins/cosserat/lanes/diagonal_blocks.h"
+#include "plugins/cosserat/model/rod_model.h"
+#include "plugins/cosserat/solver/block_structure.h"
 
 namespace pedicel::cosserat {
 

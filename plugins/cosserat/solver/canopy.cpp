@@ -1,10 +1,10 @@
-#include "pedicel/cosserat/solver/canopy.h"
+#include "plugins/cosserat/solver/canopy.h"
 
 #include <algorithm>
 #include <array>
 
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/contact/blade_contact.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/contact/blade_contact.h"
 
 namespace pedicel::cosserat {
 

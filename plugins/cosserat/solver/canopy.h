@@ -5,29 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/model/joined_model.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/model/joined_model.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/cosserat/solver/strings.h"
 
 namespace pedicel::cosserat {
-
-/// In ContactPoint::collider, shapes of other plants have this number and higher ones.
-constexpr int other_plant_base = 1 << 28;
-constexpr bool is_other_plant(int collider) {
-  return collider >= other_plant_base;
-}
-
-/// A string between places of two plants, or of one: it pulls both where it is longer than
-/// `length`, and bears no pressure.
-struct PlantString {
-  struct End {
-    int plant = 0, element = 0;
-    double back = 0.0;  ///< m
-  };
-  End a, b;                ///< not of one element
-  double length = 0.0;     ///< m, where it becomes taut
-  double stiffness = 0.0;  ///< N/m
-};
 
 /// Plants that touch each other and themselves, solved as one plant of several trees (JoinedModel).
 /// So both sides of a contact get the same force in the same step, friction and line search see all

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 
-#include "pedicel/cosserat/lanes/diagonal_blocks.h"
-#include "pedicel/cosserat/lanes/lanes.h"
-#include "pedicel/cosserat/model/rod_state.h"
+#include "plugins/cosserat/lanes/diagonal_blocks.h"
+#include "plugins/cosserat/lanes/lanes.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel::cosserat {
 

@@ -1,11 +1,11 @@
-#include "pedicel/cosserat/solver/contact_terms.h"
+#include "plugins/cosserat/solver/contact_terms.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "pedicel/cosserat/lanes/lane_access.h"
+#include "plugins/cosserat/lanes/lane_access.h"
 
 namespace pedicel::cosserat {
 

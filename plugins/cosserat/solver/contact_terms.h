@@ -3,12 +3,12 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact.h"
-#include "pedicel/cosserat/lanes/diagonal_blocks.h"
-#include "pedicel/cosserat/lanes/parted_loop.h"
-#include "pedicel/cosserat/solver/contact_lanes.h"
-#include "pedicel/cosserat/solver/driven_contacts.h"
-#include "pedicel/cosserat/solver/friction_memory.h"
+#include "plugins/cosserat/contact/contact.h"
+#include "plugins/cosserat/lanes/diagonal_blocks.h"
+#include "plugins/cosserat/lanes/parted_loop.h"
+#include "plugins/cosserat/solver/contact_lanes.h"
+#include "plugins/cosserat/solver/driven_contacts.h"
+#include "plugins/cosserat/solver/friction_memory.h"
 
 namespace pedicel::cosserat {
 

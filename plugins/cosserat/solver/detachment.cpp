@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/solver/detachment.h"
+#include "plugins/cosserat/solver/detachment.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,33 @@ struct Margins {
   std::string_view cause = "";
 };
 
-Margins margins(const RodModel& model, const RodState& state, const Fruit& fruit) {
+bool has_limit_of_load(const Fruit& fruit) {
+  return !fruit.law && (fruit.thresholds.force < Thresholds::never ||
+                        fruit.thresholds.moment < Thresholds::never ||
+                        fruit.thresholds.torsion < Thresholds::never);
+}
+
+// Kelvin and Voigt: stress = E (strain + time rate). The rate is the step's own, as the potential
+// of the step has it: that of the velocities at its end is no difference of these strains. By the
+// elastic part alone a stalk that is pulled evenly would part later by its damping time.
+void add_damping(const RodModel& model, const RodState& state, int fruit, const StalkStart& start,
+                 StalkNumbers& carried) {
+  if (start.loads.empty() || !has_limit_of_load(model.fruits[fruit])) return;
+  const int e = model.fruits[fruit].element;
+  const double share = model.elements[e].damping_time / start.dt;
+  const JointLoad now = joint_load(model, state, e), &before = start.loads[fruit];
+  const Vec3 force = now.force + share * (now.force - before.force);
+  const Vec3 moment = now.moment + share * (now.moment - before.moment);
+  carried[stalk_force] = force.norm();
+  carried[stalk_moment] = moment.head<2>().norm();
+  carried[stalk_torsion] = std::abs(moment.z());
+}
+
+Margins margins(const RodModel& model, const RodState& state, int index,
+                const StalkStart& start = {}) {
+  const Fruit& fruit = model.fruits[index];
   Margins m{stalk_numbers(model, state, fruit.element)};
+  add_damping(model, state, index, start, m.carried);
   if (fruit.law) {
     // A scale that was left out is infinite: its ratio is 0, and it takes no part. The sum reaches
     // 1 where the stalk breaks, so that laws and thresholds report the same kind of number.
@@ -113,7 +138,7 @@ StalkNumbers stalk_numbers(const RodModel& model, const RodState& state, int ele
 
 double margin_used(const RodModel& model, const RodState& state, int fruit) {
   if (state.fruit_gone[fruit]) return 0.0;
-  return margins(model, state, model.fruits[fruit]).used;
+  return margins(model, state, fruit).used;
 }
 
 void take_off(RodModel& model, RodState& state, int fruit) {
@@ -177,10 +202,21 @@ CutOff cut(const RodModel& model, RodState& state, int element) {
   return off;
 }
 
-void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events) {
+void begin_stalks(const RodModel& model, const RodState& state, double dt, StalkStart& start) {
+  start.dt = dt;
+  start.loads.clear();
+  if (std::ranges::none_of(model.fruits, has_limit_of_load)) return;
+  start.loads.resize(model.fruits.size());
+  for (std::size_t f = 0; f < model.fruits.size(); ++f)
+    if (!state.fruit_gone[f] && has_limit_of_load(model.fruits[f]))
+      start.loads[f] = joint_load(model, state, model.fruits[f].element);
+}
+
+void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events,
+            const StalkStart& start) {
   for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f) {
     if (state.fruit_gone[f] || !state.alive[model.fruits[f].element]) continue;
-    const Margins m = margins(model, state, model.fruits[f]);
+    const Margins m = margins(model, state, f, start);
     // Recorded first, then taken off: the record is of the joint that broke, and after take_off()
     // there is no joint. Fruits are taken in the order of the file, so a run repeats to the bit.
     if (m.used < 1.0) continue;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_state.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel::cosserat {
 
@@ -56,10 +56,20 @@ using StalkNumbers = std::array<double, stalk_limits.size()>;
 /// What the joint at the near end of an element carries.
 StalkNumbers stalk_numbers(const RodModel& model, const RodState& state, int element);
 
+/// What the stalks of all fruits carried when a step began, and how long it took.
+struct StalkStart {
+  std::vector<JointLoad> loads;  ///< one a fruit; empty: damping is left out
+  double dt = 0.0;               ///< s
+};
+/// Loads of the stalks that have a limit of load, before a step. Reuses what `start` holds.
+void begin_stalks(const RodModel& model, const RodState& state, double dt, StalkStart& start);
+
 /// Checks the thresholds of every fruit that is still on and takes those off that pass one: at a
 /// tip the element dies with its fruit, elsewhere the element only gets lighter. Appends to
-/// `events`.
-void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events);
+/// `events`. Force, moment and torsion are those that the stalk passes on, damping included, as a
+/// load cell would see them; strains and laws know the elastic part alone.
+void detach(RodModel& model, RodState& state, std::vector<DetachEvent>& events,
+            const StalkStart& start = {});
 
 /// Takes a fruit off that is still on, whatever its joint carries.
 void take_off(RodModel& model, RodState& state, int fruit);

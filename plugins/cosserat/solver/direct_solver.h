@@ -5,13 +5,13 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/cosserat/solver/attachments.h"
-#include "pedicel/cosserat/solver/block_system.h"
-#include "pedicel/cosserat/solver/contact_terms.h"
-#include "pedicel/cosserat/solver/iteration_control.h"
-#include "pedicel/cosserat/solver/rod_rows.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "engine/core/thread_pool.h"
+#include "plugins/cosserat/solver/attachments.h"
+#include "plugins/cosserat/solver/block_system.h"
+#include "plugins/cosserat/solver/contact_terms.h"
+#include "plugins/cosserat/solver/iteration_control.h"
+#include "plugins/cosserat/solver/rod_rows.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
 

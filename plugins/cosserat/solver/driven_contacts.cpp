@@ -1,9 +1,9 @@
-#include "pedicel/cosserat/solver/driven_contacts.h"
+#include "plugins/cosserat/solver/driven_contacts.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/lanes/lane_access.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/lanes/lane_access.h"
 
 namespace pedicel::cosserat {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact.h"
-#include "pedicel/cosserat/solver/contact_lanes.h"
+#include "plugins/cosserat/contact/contact.h"
+#include "plugins/cosserat/solver/contact_lanes.h"
 
 namespace pedicel::cosserat {
 

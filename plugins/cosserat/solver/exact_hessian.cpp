@@ -1,6 +1,6 @@
-#include "pedicel/cosserat/solver/exact_hessian.h"
+#include "plugins/cosserat/solver/exact_hessian.h"
 
-#include "pedicel/cosserat/model/rotation.h"
+#include "plugins/cosserat/model/rotation.h"
 
 namespace pedicel::cosserat {
 

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "pedicel/cosserat/solver/block_system.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "plugins/cosserat/solver/block_system.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
 

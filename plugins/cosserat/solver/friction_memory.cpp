@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/solver/friction_memory.h"
+#include "plugins/cosserat/solver/friction_memory.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/solver/iteration_control.h"
+#include "plugins/cosserat/solver/iteration_control.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "pedicel/cosserat/solver/newton_change.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "plugins/cosserat/solver/newton_change.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
 

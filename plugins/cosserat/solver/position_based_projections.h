@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact.h"
-#include "pedicel/cosserat/model/rod_model.h"
-#include "pedicel/cosserat/model/rod_state.h"
+#include "plugins/cosserat/contact/contact.h"
+#include "plugins/cosserat/model/rod_model.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel::cosserat {
 

@@ -1,10 +1,10 @@
-#include "pedicel/cosserat/solver/position_based_solver.h"
+#include "plugins/cosserat/solver/position_based_solver.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/cosserat/solver/position_based_constraints.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "plugins/cosserat/solver/position_based_constraints.h"
 
 namespace pedicel::cosserat {
 

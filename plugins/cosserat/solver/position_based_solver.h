@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pedicel/cosserat/solver/position_based_projections.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "plugins/cosserat/solver/position_based_projections.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "pedicel/cosserat/solver/row_search.h"
+#include "plugins/cosserat/solver/row_search.h"
 
 namespace pedicel::cosserat {
 

@@ -1,7 +1,7 @@
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/cosserat/solver/position_based_solver.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/cosserat/solver/position_based_solver.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/parameter.h"
-#include "pedicel/cosserat/contact/contact.h"
-#include "pedicel/cosserat/model/rod_state.h"
+#include "engine/core/parameter.h"
+#include "plugins/cosserat/contact/contact.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel::cosserat {
 

@@ -1,11 +1,12 @@
-#include "pedicel/cosserat/solver/rod_system.h"
+#include "plugins/cosserat/solver/rod_system.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/contact/plant_blades.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/contact/plant_blades.h"
+#include "plugins/cosserat/solver/solver_work.h"
 
 namespace pedicel::cosserat {
 
@@ -64,7 +65,12 @@ std::vector<Share> share_out(const std::vector<int>& elements, int threads) {
 }  // namespace
 
 RodSystem::RodSystem(const RodSettings& settings, int threads)
-    : settings_(settings), pool_(threads) {}
+    : settings_(settings), pool_(threads), work_(std::make_unique<Work>()) {}
+RodSystem::~RodSystem() = default;
+
+JoinedModel::Shape RodSystem::touched(int collider) const {
+  return work_->canopy->touched(collider);
+}
 
 int RodSystem::add_plant(RodModel model) {
   Plant plant;
@@ -74,8 +80,8 @@ int RodSystem::add_plant(RodModel model) {
   if (settings_.solver == SolverKind::position_based) plant.solver = make_solver(settings_, model);
   plant.model = std::move(model);
   plants_.push_back(std::move(plant));
-  beds_.clear();
-  canopy_.reset();
+  work_->beds.clear();
+  work_->canopy.reset();
   return size() - 1;
 }
 
@@ -87,21 +93,42 @@ void RodSystem::add_contact_source(int plant, std::unique_ptr<ContactSource> sou
 
 void RodSystem::step(double dt, const Vec3& gravity) {
   if (plants_.empty()) return;  // a world of robots and bodies alone
+  // The position-based solver damps velocities and no strains.
+  if (settings_.solver == SolverKind::direct)
+    for (Plant& plant : plants_) begin_stalks(plant.model, plant.state, dt, plant.stalks);
+  if (joint_)
+    joint_->solve(*this, dt, gravity);
+  else
+    solve(dt, gravity);
+  // In one thread and in the order of plants: what comes off makes bodies in the world, whose order
+  // must not depend on threads.
+  for (Plant& plant : plants_) {
+    plant.detached.clear();
+    detach(plant.model, plant.state, plant.detached, plant.stalks);
+    // Both flags go down here and nowhere else: an edit between two steps holds until a step has
+    // read it. What came off changes model and state, so both are read again.
+    plant.model_changed = plant.state_changed = !plant.detached.empty();
+  }
+}
+
+void RodSystem::solve(double dt, const Vec3& gravity) {
   // Plants that touch are solved as one, and beds would be of no use: each one's Newton would have
   // to wait for the others' contacts.
   if (touching_ || !strings_.empty()) {
-    step_canopy(dt, gravity);
+    work_->step_canopy(*this, dt, gravity);
   } else if (settings_.solver == SolverKind::direct) {
-    if (beds_.empty()) make_beds();
-    if (beds_.size() == 1)
-      beds_[0].step(plants_, dt, gravity, &pool_, nullptr);
+    std::vector<Work::Bed>& beds = work_->beds;
+    if (beds.empty()) work_->make_beds(*this);
+    if (beds.size() == 1)
+      beds[0].step(plants_, dt, gravity, &pool_, nullptr);
     else
       // A bed is stepped by the same thread in every step, whose cache has it still. Handing beds
       // out to whoever is free would balance better and move the memory to and fro. No bed looks at
       // another one, so the bits do not depend on the order.
       pool_.for_each(pool_.threads(), [&](int thread) {
-        for (Bed& bed : beds_)
-          if (bed.thread == thread) bed.step(plants_, dt, gravity, nullptr, what_follows(bed));
+        for (Work::Bed& bed : beds)
+          if (bed.thread == thread)
+            bed.step(plants_, dt, gravity, nullptr, work_->what_follows(plants_, bed));
       });
   } else {
     pool_.for_each(size(), [&](int i) {
@@ -110,27 +137,18 @@ void RodSystem::step(double dt, const Vec3& gravity) {
                                         {dt, gravity, plant.loads, plant.source_pointers});
     });
   }
-  // In one thread and in the order of plants: what comes off makes bodies in the world, whose order
-  // must not depend on threads.
-  for (Plant& plant : plants_) {
-    plant.detached.clear();
-    detach(plant.model, plant.state, plant.detached);
-    // Both flags go down here and nowhere else: an edit between two steps holds until a step has
-    // read it. What came off changes model and state, so both are read again.
-    plant.model_changed = plant.state_changed = !plant.detached.empty();
-  }
 }
 
-DirectSolver::PlantStep RodSystem::Plant::step() {
+DirectSolver::PlantStep RodSystem::Work::step_of(Plant& plant) {
   DirectSolver::PlantStep step;
-  step.model = &model;
-  step.state = &state;
-  step.loads = loads;
-  step.contacts = source_pointers;
-  step.model_changed = model_changed;
-  step.state_changed = state_changed;
-  step.ties = ties;
-  step.air = air;
+  step.model = &plant.model;
+  step.state = &plant.state;
+  step.loads = plant.loads;
+  step.contacts = plant.source_pointers;
+  step.model_changed = plant.model_changed;
+  step.state_changed = plant.state_changed;
+  step.ties = plant.ties;
+  step.air = plant.air;
   return step;
 }
 
@@ -139,16 +157,16 @@ void RodSystem::let_plants_touch(const SelfContactSettings& settings) {
     throw UsageError("RodSystem::let_plants_touch: position-based solver, must be the direct one");
   // A running canopy keeps what its contacts remember. A new one is made with these settings
   // anyway.
-  if (canopy_ && touching_) {
-    canopy_->change_settings(settings);
+  if (work_->canopy && touching_) {
+    work_->canopy->change_settings(settings);
     for (const Plant& plant : plants_)
       for (ContactSource* source : plant.source_pointers)
         if (auto* blades = dynamic_cast<PlantBlades*>(source)) blades->change_settings(settings);
   } else {
-    canopy_.reset();
+    work_->canopy.reset();
   }
   touching_ = settings;
-  beds_.clear();
+  work_->beds.clear();
 }
 
 int RodSystem::add_string(const PlantString& string) {
@@ -161,25 +179,27 @@ int RodSystem::add_string(const PlantString& string) {
   if (string.a.plant == string.b.plant && string.a.element == string.b.element)
     throw UsageError("RodSystem::add_string: both ends on one element, must be on two");
   strings_.push_back(string);
-  canopy_.reset();
-  beds_.clear();
+  work_->canopy.reset();
+  work_->beds.clear();
   return static_cast<int>(strings_.size()) - 1;
 }
 
-void RodSystem::step_canopy(double dt, const Vec3& gravity) {
-  steps_.clear();
+void RodSystem::Work::step_canopy(RodSystem& system, double dt, const Vec3& gravity) {
+  steps.clear();
   // Filled in each step: the flags, loads and spans are of this step only.
-  for (Plant& plant : plants_) steps_.push_back(plant.step());
-  if (!canopy_)
-    canopy_ = std::make_unique<Canopy>(settings_, touching_, steps_, pool_.threads(), strings_);
-  canopy_->step(steps_, dt, gravity, pool_);
-  for (int p = 0; p < size(); ++p) plants_[p].report = steps_[p].report;
+  for (Plant& plant : system.plants_) steps.push_back(step_of(plant));
+  if (!canopy)
+    canopy = std::make_unique<Canopy>(system.settings_, system.touching_, steps,
+                                      system.pool_.threads(), system.strings_);
+  canopy->step(steps, dt, gravity, system.pool_);
+  for (int p = 0; p < system.size(); ++p) system.plants_[p].report = steps[p].report;
 }
 
-void RodSystem::make_beds() {
-  const int threads = pool_.threads();
+void RodSystem::Work::make_beds(RodSystem& system) {
+  const int threads = system.pool_.threads();
+  std::vector<Plant>& plants = system.plants_;
   std::vector<int> elements;
-  for (const Plant& plant : plants_) elements.push_back(plant.model.size());
+  for (const Plant& plant : plants) elements.push_back(plant.model.size());
   // The beds of a thread share the memory that a step needs.
   // On pages of 4 kB a large plant's rows miss the address cache at each of them.
   const bool is_large = std::accumulate(elements.begin(), elements.end(), 0) >= large;
@@ -189,27 +209,27 @@ void RodSystem::make_beds() {
   const std::vector<Share> shares = share_out(elements, threads);
   int next = 0;
   for (const Share& share : shares) {
-    Bed& bed = beds_.emplace_back();
+    Bed& bed = beds.emplace_back();
     bed.first = next;
     bed.thread = share.thread;
     std::vector<const RodModel*> models;
     for (int i = 0; i < share.plants; ++i, ++next) {
-      plants_[next].bed = static_cast<int>(beds_.size()) - 1;
+      plants[next].bed = static_cast<int>(beds.size()) - 1;
       // New rows are empty. Without this a plant added beside running ones would be solved beside
       // plants of zeros.
-      plants_[next].model_changed = plants_[next].state_changed = true;
-      models.push_back(&plants_[next].model);
+      plants[next].model_changed = plants[next].state_changed = true;
+      models.push_back(&plants[next].model);
     }
-    bed.solver = std::make_unique<DirectSolver>(settings_, models, shares.size() == 1 ? threads : 1,
-                                                scratch[bed.thread]);
+    bed.solver = std::make_unique<DirectSolver>(
+        system.settings_, models, shares.size() == 1 ? threads : 1, scratch[bed.thread]);
     bed.steps.resize(models.size());
   }
-  ahead_.resize(threads);
+  ahead.resize(threads);
 }
 
-void RodSystem::Bed::step(std::vector<Plant>& plants, double dt, const Vec3& gravity,
-                          ThreadPool* pool, FetchAhead* next) {
-  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = plants[first + i].step();
+void RodSystem::Work::Bed::step(std::vector<Plant>& plants, double dt, const Vec3& gravity,
+                                ThreadPool* pool, FetchAhead* next) {
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = step_of(plants[first + i]);
   if (pool)
     solver->step(steps, dt, gravity, *pool);
   else
@@ -221,36 +241,37 @@ void RodSystem::Bed::step(std::vector<Plant>& plants, double dt, const Vec3& gra
 
 // The bed that its thread steps next, in the next step the first one again; nullptr where that is
 // the same.
-FetchAhead* RodSystem::what_follows(const Bed& bed) {
-  const auto count = beds_.size();
-  auto after = static_cast<std::size_t>(&bed - beds_.data());
+FetchAhead* RodSystem::Work::what_follows(const std::vector<Plant>& plants, const Bed& bed) {
+  const auto count = beds.size();
+  auto after = static_cast<std::size_t>(&bed - beds.data());
   // Ends for certain: after a round it is at the bed itself, whose thread is its own.
   do after = (after + 1) % count;
-  while (beds_[after].thread != bed.thread);
-  const Bed& next = beds_[after];
+  while (beds[after].thread != bed.thread);
+  const Bed& next = beds[after];
   if (&next == &bed) return nullptr;
-  FetchAhead& ahead = ahead_[bed.thread].next_bed;
-  ahead.clear();
-  next.solver->add_to(ahead);
+  FetchAhead& asked = ahead[bed.thread].next_bed;
+  asked.clear();
+  next.solver->add_to(asked);
   for (std::size_t i = 0; i < next.steps.size(); ++i) {
     // The vectors that a step reads, and no more: each line asked for pushes another one out.
-    const RodState& state = plants_[next.first + i].state;
-    ahead.add(state.position);
-    ahead.add(state.orientation);
-    ahead.add(state.velocity);
-    ahead.add(state.angular_velocity);
-    ahead.add(state.alive);
+    const RodState& state = plants[next.first + i].state;
+    asked.add(state.position);
+    asked.add(state.orientation);
+    asked.add(state.velocity);
+    asked.add(state.angular_velocity);
+    asked.add(state.alive);
   }
-  return &ahead;
+  return &asked;
 }
 
 const std::vector<ContactForce>& RodSystem::contact_forces(int plant) const {
   // Beds are made by the first step, and a picture may be wanted before it.
   static const std::vector<ContactForce> none;
+  if (joint_) return joint_->contact_forces(*this, plant);
   if (plants_[plant].solver) return plants_[plant].solver->contact_forces();
-  if (canopy_) return canopy_->contact_forces(plant);
-  if (beds_.empty()) return none;
-  const Bed& bed = beds_[plants_[plant].bed];
+  if (work_->canopy) return work_->canopy->contact_forces(plant);
+  if (work_->beds.empty()) return none;
+  const Work::Bed& bed = work_->beds[plants_[plant].bed];
   return bed.solver->contact_forces(plant - bed.first);
 }
 
@@ -262,9 +283,10 @@ void RodSystem::set_state(int plant, const RodState& state) {
   plants_[plant].state.previous_root = state.root;
   // Whichever solver has the plant: friction's springs and BDF2's past are of the old state.
   if (plants_[plant].solver) plants_[plant].solver->reset();
-  if (canopy_) canopy_->reset();
-  if (beds_.empty() || settings_.solver != SolverKind::direct) return;
-  Bed& bed = beds_[plants_[plant].bed];
+  if (work_->canopy) work_->canopy->reset();
+  if (joint_) joint_->reset(*this, plant);
+  if (work_->beds.empty() || settings_.solver != SolverKind::direct) return;
+  Work::Bed& bed = work_->beds[plants_[plant].bed];
   bed.solver->reset(plant - bed.first);
 }
 
@@ -299,8 +321,8 @@ void RodSystem::change_settings(const RodSettings& settings) {
   settings_ = settings;
   for (Plant& plant : plants_)
     if (plant.solver) plant.solver->change_settings(settings);
-  for (Bed& bed : beds_) bed.solver->change_settings(settings);
-  if (canopy_) canopy_->change_settings(settings);
+  for (Work::Bed& bed : work_->beds) bed.solver->change_settings(settings);
+  if (work_->canopy) work_->canopy->change_settings(settings);
 }
 
 void RodSystem::add_to(StateHash& hash) const {

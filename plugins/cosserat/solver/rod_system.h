@@ -4,12 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "pedicel/core/state_hash.h"
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/cosserat/solver/canopy.h"
-#include "pedicel/cosserat/solver/detachment.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "engine/core/state_hash.h"
+#include "engine/core/thread_pool.h"
+#include "plugins/cosserat/contact/self_contact_settings.h"
+#include "plugins/cosserat/model/joined_model.h"
+#include "plugins/cosserat/solver/detachment.h"
+#include "plugins/cosserat/solver/strings.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
 
@@ -17,7 +18,19 @@ namespace pedicel::cosserat {
 /// Any number of threads gives the same bits.
 class RodSystem {
  public:
+  /// What solves the plants of several systems side by side (JoinedSystems).
+  class Joint {
+   public:
+    virtual ~Joint() = default;
+    /// A system has come to where it would solve its plants.
+    virtual void solve(const RodSystem& system, double dt, const Vec3& gravity) = 0;
+    virtual const std::vector<ContactForce>& contact_forces(const RodSystem& system,
+                                                            int plant) const = 0;
+    virtual void reset(const RodSystem& system, int plant) = 0;
+  };
+
   explicit RodSystem(const RodSettings& settings, int threads = 1);
+  ~RodSystem();
 
   /// Adds a finished model, at rest in its drawn shape. Returns its index.
   int add_plant(RodModel model);
@@ -28,7 +41,7 @@ class RodSystem {
   /// solver that cannot do so.
   void let_plants_touch(const SelfContactSettings& settings);
   /// Whose shape a contact's collider is, one for which is_other_plant() holds.
-  JoinedModel::Shape touched(int collider) const { return canopy_->touched(collider); }
+  JoinedModel::Shape touched(int collider) const;
 
   /// Advances every plant by dt, then takes off the fruits whose joint passed a threshold.
   void step(double dt, const Vec3& gravity);
@@ -108,40 +121,20 @@ class RodSystem {
     std::vector<Vec3> air;
     StepReport report;
     std::vector<DetachEvent> detached;
-
-    /// What its solver is handed; it points into this plant.
-    DirectSolver::PlantStep step();
+    StalkStart stalks;
   };
-  /// Plants that are solved together: as many as stay in a core's cache from one phase of a step to
-  /// the next; one plant that is larger than a thread's share goes with all the others, and threads
-  /// then share the phases.
-  struct Bed {
-    std::unique_ptr<DirectSolver> solver;
-    int first = 0;   // its first plant
-    int thread = 0;  // that steps it, where there are several beds
-    std::vector<DirectSolver::PlantStep> steps;
+  friend class JoinedSystems;
+  struct Work;  // what solves the plants (solver_work.h)
 
-    /// `plants`: all of the system. `pool`: null where it is one of several beds, which a thread
-    /// steps alone. `next`: what that thread reads afterwards; null: nothing else.
-    void step(std::vector<Plant>& plants, double dt, const Vec3& gravity, ThreadPool* pool,
-              FetchAhead* next);
-  };
-  void make_beds();
-  void step_canopy(double dt, const Vec3& gravity);
-  FetchAhead* what_follows(const Bed& bed);
+  void solve(double dt, const Vec3& gravity);
 
   RodSettings settings_;
   mutable ThreadPool pool_;
   std::vector<Plant> plants_;
-  std::vector<Bed> beds_;  // direct solver; made by the first step after add_plant()
   std::optional<SelfContactSettings> touching_;
   std::vector<PlantString> strings_;
-  std::unique_ptr<Canopy> canopy_;  // where plants touch or hold each other; made by a step
-  std::vector<DirectSolver::PlantStep> steps_;  // of the canopy
-  struct alignas(64) Ahead {
-    FetchAhead next_bed;
-  };
-  std::vector<Ahead> ahead_;  // by thread
+  Joint* joint_ = nullptr;  // solves in place of `work_`; null: nobody
+  std::unique_ptr<Work> work_;
 };
 
 /// m, W, of one end of a string now; nothing where that came off.

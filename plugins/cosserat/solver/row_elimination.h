@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/lanes/diagonal_blocks.h"
-#include "pedicel/cosserat/solver/block_system.h"
-#include "pedicel/cosserat/solver/newton_change.h"
-#include "pedicel/cosserat/solver/row_store.h"
+#include "plugins/cosserat/lanes/diagonal_blocks.h"
+#include "plugins/cosserat/solver/block_system.h"
+#include "plugins/cosserat/solver/newton_change.h"
+#include "plugins/cosserat/solver/row_store.h"
 
 namespace pedicel::cosserat {
 

@@ -1,9 +1,9 @@
-#include "pedicel/cosserat/solver/row_extensions.h"
+#include "plugins/cosserat/solver/row_extensions.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/cosserat/lanes/lane_access.h"
+#include "plugins/cosserat/lanes/lane_access.h"
 
 namespace pedicel::cosserat {
 
@@ -155,7 +155,7 @@ void RowExtensions::read_branches(int plant, const RodModel& model) {
 
 void RowExtensions::read_terms(const JointLaw& law, Slot slot) {
   JointTermRow& out = store_.joint_term[slot.row];
-  for (int i = 0; i < effects::joint_term_numbers; ++i)
+  for (int i = 0; i < laws::joint_term_numbers; ++i)
     out.number[i][slot.lane] = law.terms.empty() ? 0.0 : law.terms[i];
 }
 

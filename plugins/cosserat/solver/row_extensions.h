@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_model.h"
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/cosserat/solver/row_store.h"
+#include "plugins/cosserat/model/rod_model.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/cosserat/solver/row_store.h"
 
 namespace pedicel::cosserat {
 

@@ -4,8 +4,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "pedicel/core/huge_pages.h"
-#include "pedicel/cosserat/lanes/lanes.h"
+#include "engine/core/huge_pages.h"
+#include "plugins/cosserat/lanes/lanes.h"
 
 namespace pedicel::cosserat {
 

@@ -1,8 +1,8 @@
-#include "pedicel/cosserat/solver/row_search.h"
+#include "plugins/cosserat/solver/row_search.h"
 
 #include <algorithm>
 
-#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
 
 namespace pedicel::cosserat {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/solver/row_elimination.h"
-#include "pedicel/cosserat/solver/row_states.h"
+#include "plugins/cosserat/solver/row_elimination.h"
+#include "plugins/cosserat/solver/row_states.h"
 
 namespace pedicel::cosserat {
 

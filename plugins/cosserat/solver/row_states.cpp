@@ -1,9 +1,9 @@
-#include "pedicel/cosserat/solver/row_states.h"
+#include "plugins/cosserat/solver/row_states.h"
 
 #include <algorithm>
 
-#include "pedicel/cosserat/lanes/lane_access.h"
-#include "pedicel/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/lanes/lane_access.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
 
 namespace pedicel::cosserat {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/cosserat/solver/row_extensions.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/cosserat/solver/row_extensions.h"
 
 namespace pedicel::cosserat {
 

@@ -1,9 +1,9 @@
-#include "pedicel/cosserat/solver/row_store.h"
+#include "plugins/cosserat/solver/row_store.h"
 
 #include <algorithm>
 #include <iterator>
 
-#include "pedicel/cosserat/lanes/lane_access.h"
+#include "plugins/cosserat/lanes/lane_access.h"
 
 namespace pedicel::cosserat {
 

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/core/task_graph.h"
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/cosserat/lanes/lane_layout.h"
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/cosserat/solver/row_scratch.h"
+#include "engine/core/task_graph.h"
+#include "engine/core/thread_pool.h"
+#include "plugins/cosserat/lanes/lane_layout.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/cosserat/solver/row_scratch.h"
 
 namespace pedicel::cosserat {
 

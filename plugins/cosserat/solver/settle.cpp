@@ -1,7 +1,7 @@
-#include "pedicel/core/stop.h"
-#include "pedicel/cosserat/model/joint_law.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/cosserat/solver/settle_touching.h"
+#include "engine/core/stop.h"
+#include "plugins/cosserat/model/joint_law.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/cosserat/solver/settle_touching.h"
 
 namespace pedicel::cosserat {
 

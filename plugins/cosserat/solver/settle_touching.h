@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
 

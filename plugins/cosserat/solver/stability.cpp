@@ -1,5 +1,5 @@
-#include "pedicel/cosserat/solver/exact_hessian.h"
-#include "pedicel/cosserat/solver/standing.h"
+#include "plugins/cosserat/solver/exact_hessian.h"
+#include "plugins/cosserat/solver/standing.h"
 
 namespace pedicel::cosserat {
 

@@ -1,13 +1,13 @@
-#include "pedicel/cosserat/solver/standing.h"
+#include "plugins/cosserat/solver/standing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "pedicel/core/stop.h"
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/cosserat/solver/exact_hessian.h"
+#include "engine/core/stop.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/cosserat/solver/exact_hessian.h"
 
 namespace pedicel::cosserat {
 

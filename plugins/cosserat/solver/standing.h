@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::cosserat {
 

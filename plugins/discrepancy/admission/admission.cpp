@@ -1,14 +1,14 @@
-#include "pedicel/discrepancy/admission/admission.h"
+#include "plugins/discrepancy/admission/admission.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/admission/following.h"
-#include "pedicel/discrepancy/data/labels.h"
-#include "pedicel/discrepancy/data/trial_name.h"
-#include "pedicel/discrepancy/simulate/trial_run.h"
+#include "plugins/discrepancy/admission/following.h"
+#include "plugins/discrepancy/data/labels.h"
+#include "plugins/discrepancy/data/trial_name.h"
+#include "plugins/discrepancy/simulate/trial_run.h"
 
 namespace pedicel::discrepancy {
 

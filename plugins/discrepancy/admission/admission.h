@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/admission/contradiction.h"
-#include "pedicel/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/admission/contradiction.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/admission/axes.h"
+#include "plugins/discrepancy/admission/axes.h"
 
 #include <algorithm>
 #include <array>

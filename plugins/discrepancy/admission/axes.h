@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::discrepancy {
 

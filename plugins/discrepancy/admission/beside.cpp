@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/admission/beside.h"
+#include "plugins/discrepancy/admission/beside.h"
 
 #include <algorithm>
 #include <cmath>

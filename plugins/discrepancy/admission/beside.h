@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/admission/following.h"
+#include "plugins/discrepancy/admission/following.h"
 
 namespace pedicel::discrepancy {
 

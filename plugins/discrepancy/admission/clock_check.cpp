@@ -3,9 +3,9 @@
 // began.
 #include <algorithm>
 
-#include "pedicel/discrepancy/admission/contradiction_checks.h"
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/data/trial_clock.h"
+#include "plugins/discrepancy/admission/contradiction_checks.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/trial_clock.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/admission/contradiction.h"
+#include "plugins/discrepancy/admission/contradiction.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "pedicel/discrepancy/admission/contradiction_checks.h"
+#include "plugins/discrepancy/admission/contradiction_checks.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/discrepancy/admission/nominal_plant.h"
-#include "pedicel/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/admission/nominal_plant.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 /// What one trial may contradict. Each check has a file of its own, with the reason for its limits.
 /// None of them simulates.

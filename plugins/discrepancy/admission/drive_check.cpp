@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/admission/beside.h"
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/data/trial_clock.h"
+#include "plugins/discrepancy/admission/beside.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/trial_clock.h"
 
 namespace pedicel::discrepancy {
 

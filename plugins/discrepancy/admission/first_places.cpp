@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/admission/first_places.h"
+#include "plugins/discrepancy/admission/first_places.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/discrepancy/admission/contradiction_checks.h"
+#include "plugins/discrepancy/admission/contradiction_checks.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/admission/following.h"
+#include "plugins/discrepancy/admission/following.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/admission/first_places.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/admission/first_places.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

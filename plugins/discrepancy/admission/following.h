@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/admission/contradiction_checks.h"
+#include "plugins/discrepancy/admission/contradiction_checks.h"
 
 namespace pedicel::discrepancy {
 

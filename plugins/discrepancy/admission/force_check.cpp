@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/admission/following.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/admission/following.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

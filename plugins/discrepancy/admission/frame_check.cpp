@@ -4,9 +4,9 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "pedicel/discrepancy/admission/axes.h"
-#include "pedicel/discrepancy/admission/first_places.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/admission/axes.h"
+#include "plugins/discrepancy/admission/first_places.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

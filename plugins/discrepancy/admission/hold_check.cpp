@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/admission/axes.h"
-#include "pedicel/discrepancy/admission/first_places.h"
-#include "pedicel/discrepancy/admission/following.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/admission/axes.h"
+#include "plugins/discrepancy/admission/first_places.h"
+#include "plugins/discrepancy/admission/following.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

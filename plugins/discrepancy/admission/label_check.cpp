@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "pedicel/discrepancy/admission/first_places.h"
-#include "pedicel/discrepancy/data/labels.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/admission/first_places.h"
+#include "plugins/discrepancy/data/labels.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

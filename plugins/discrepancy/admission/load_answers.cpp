@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/admission/load_answers.h"
+#include "plugins/discrepancy/admission/load_answers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/discrepancy/admission/following.h"
+#include "plugins/discrepancy/admission/following.h"
 
 namespace pedicel::discrepancy {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/admission/following.h"
-#include "pedicel/discrepancy/admission/load_answers.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/admission/following.h"
+#include "plugins/discrepancy/admission/load_answers.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

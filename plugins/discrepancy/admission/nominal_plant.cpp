@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/admission/nominal_plant.h"
+#include "plugins/discrepancy/admission/nominal_plant.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/simulate/equilibrium.h"
-#include "pedicel/discrepancy/simulate/variant_plant.h"
+#include "plugins/cosserat/solver/equilibrium.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/plant/plant_builder.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/plant/plant_builder.h"
 
 namespace pedicel::discrepancy {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/admission/axes.h"
-#include "pedicel/discrepancy/admission/beside.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/admission/axes.h"
+#include "plugins/discrepancy/admission/beside.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

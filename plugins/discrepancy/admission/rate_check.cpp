@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/admission/beside.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/admission/beside.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

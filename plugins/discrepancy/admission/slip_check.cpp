@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/admission/first_places.h"
-#include "pedicel/discrepancy/admission/following.h"
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/data/trial_clock.h"
-#include "pedicel/discrepancy/simulate/trial_run.h"
+#include "plugins/discrepancy/admission/first_places.h"
+#include "plugins/discrepancy/admission/following.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/trial_clock.h"
+#include "plugins/discrepancy/simulate/trial_run.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "pedicel/discrepancy/admission/first_places.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/admission/first_places.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/data/drive_reader.h"
+#include "plugins/discrepancy/data/drive_reader.h"
 
 #include <cmath>
 
-#include "pedicel/discrepancy/data/experiment_tables.h"
-#include "pedicel/plant/effect_reader.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
+#include "plugins/plant/effect_reader.h"
 
 namespace pedicel::discrepancy {
 

@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/io/described_map.h"
+#include "engine/io/described_map.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
 

@@ -2,12 +2,12 @@
 #include <cmath>
 #include <set>
 
-#include "pedicel/discrepancy/data/drive_reader.h"
-#include "pedicel/discrepancy/data/experiment_keys.h"
-#include "pedicel/discrepancy/data/experiment_progress.h"
-#include "pedicel/discrepancy/data/experiment_tables.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/plant/effect_reader.h"
+#include "plugins/discrepancy/data/drive_reader.h"
+#include "plugins/discrepancy/data/experiment_keys.h"
+#include "plugins/discrepancy/data/experiment_progress.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "plugins/plant/effect_reader.h"
 
 namespace pedicel::discrepancy {
 

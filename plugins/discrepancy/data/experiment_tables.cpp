@@ -1,13 +1,13 @@
-#include "pedicel/discrepancy/data/experiment_tables.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/data/sample_table.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/csv_cell.h"
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/text_file.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "engine/io/csv_cell.h"
+#include "engine/io/table_text.h"
+#include "engine/io/text_file.h"
+#include "plugins/discrepancy/data/sample_table.h"
 
 namespace pedicel::discrepancy {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/discrepancy/data/sample_table.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/sample_table.h"
 
 /// The tables of an experiment folder. Faults go to the diagnostics with line and column; what
 /// comes back then is empty. The ways of writing a table are those of io::TableText; names of

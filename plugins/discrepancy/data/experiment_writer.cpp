@@ -1,11 +1,11 @@
 #include <cmath>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/discrepancy/data/experiment_tables.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/plant/leaf_template.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "engine/io/text_file.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
+#include "plugins/plant/leaf_template.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/data/experiment.h"
+#include "engine/core/check.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 /// What adding the trials of a later experiment takes, of plants and of scenes alike.
 namespace pedicel::discrepancy {

@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/data/labels.h"
+#include "plugins/discrepancy/data/labels.h"
 
 #include <algorithm>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/data/more_trials.h"
+#include "plugins/discrepancy/data/more_trials.h"
 
 #include <limits>
 
-#include "pedicel/discrepancy/data/joined_trials.h"
+#include "plugins/discrepancy/data/joined_trials.h"
 
 namespace pedicel::discrepancy {
 

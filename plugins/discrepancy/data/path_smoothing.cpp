@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/data/path_smoothing.h"
+#include "plugins/discrepancy/data/path_smoothing.h"
 
 #include <Eigen/SparseCholesky>
 #include <cmath>

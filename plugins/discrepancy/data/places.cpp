@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/data/places.h"
+#include "plugins/discrepancy/data/places.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "pedicel/geometry/curve.h"
+#include "engine/geometry/curve.h"
 
 namespace pedicel::discrepancy {
 

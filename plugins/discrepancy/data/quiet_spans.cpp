@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/data/quiet_spans.h"
+#include "plugins/discrepancy/data/quiet_spans.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/data/sample_table.h"
+#include "plugins/discrepancy/data/sample_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/io/unit_text.h"
+#include "engine/io/unit_text.h"
 
 namespace pedicel::discrepancy {
 

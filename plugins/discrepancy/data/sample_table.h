@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/io/csv.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/data/trial_clock.h"
+#include "plugins/discrepancy/data/trial_clock.h"
 
 #include <algorithm>
 #include <cmath>

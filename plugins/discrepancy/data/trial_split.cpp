@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/data/trial_split.h"
+#include "plugins/discrepancy/data/trial_split.h"
 
 #include <algorithm>
 #include <cmath>

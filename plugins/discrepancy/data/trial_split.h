@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 

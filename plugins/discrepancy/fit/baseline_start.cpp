@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/fit/baseline_start.h"
+#include "plugins/discrepancy/fit/baseline_start.h"
 
 namespace pedicel::discrepancy {
 

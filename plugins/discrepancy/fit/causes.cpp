@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/fit/causes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/plant/plant_builder.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "plugins/plant/plant_builder.h"
 
 namespace pedicel::discrepancy {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/fit.h"
-#include "pedicel/discrepancy/simulate/hypothesis.h"
-#include "pedicel/discrepancy/simulate/scales.h"
+#include "plugins/discrepancy/fit/fit.h"
+#include "plugins/discrepancy/simulate/hypothesis.h"
+#include "plugins/discrepancy/simulate/scales.h"
 
 namespace pedicel::discrepancy {
 

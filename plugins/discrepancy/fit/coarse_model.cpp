@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/fit/coarse_model.h"
+#include "plugins/discrepancy/fit/coarse_model.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "pedicel/discrepancy/fit/shift_fit.h"
+#include "plugins/discrepancy/fit/shift_fit.h"
 
 namespace pedicel::discrepancy {
 

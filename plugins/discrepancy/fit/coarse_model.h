@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/fit_setup.h"
+#include "plugins/discrepancy/fit/fit_setup.h"
 
 namespace pedicel::discrepancy {
 

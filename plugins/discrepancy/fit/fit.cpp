@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/fit/fit.h"
+#include "plugins/discrepancy/fit/fit.h"
 
 #include <ceres/ceres.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/fit/bounded_solve.h"
-#include "pedicel/discrepancy/simulate/differences.h"
+#include "engine/core/check.h"
+#include "plugins/discrepancy/fit/bounded_solve.h"
+#include "plugins/discrepancy/simulate/differences.h"
 
 namespace pedicel::discrepancy {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
-#include "pedicel/discrepancy/simulate/data_set.h"
-#include "pedicel/discrepancy/simulate/hypothesis.h"
+#include "plugins/discrepancy/settings/diagnosis_settings.h"
+#include "plugins/discrepancy/simulate/data_set.h"
+#include "plugins/discrepancy/simulate/hypothesis.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/fit/fit_parts.h"
+#include "plugins/discrepancy/fit/fit_parts.h"
 
 #include <cmath>
 #include <limits>

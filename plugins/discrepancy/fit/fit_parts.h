@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/profile.h"
+#include "plugins/discrepancy/fit/profile.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/fit/fit_setup.h"
+#include "plugins/discrepancy/fit/fit_setup.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "pedicel/discrepancy/data/trial_split.h"
-#include "pedicel/discrepancy/simulate/start_directions.h"
+#include "plugins/discrepancy/data/trial_split.h"
+#include "plugins/discrepancy/simulate/start_directions.h"
 
 namespace pedicel::discrepancy {
 

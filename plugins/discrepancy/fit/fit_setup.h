@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/numerics.h"
+#include "plugins/discrepancy/fit/numerics.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/fit/numerics.h"
+#include "plugins/discrepancy/fit/numerics.h"
 
 #include <cmath>
 
-#include "pedicel/discrepancy/fit/shift_fit.h"
+#include "plugins/discrepancy/fit/shift_fit.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/fit/parameter_fit.h"
+#include "plugins/discrepancy/fit/parameter_fit.h"
 
 #include <algorithm>
 #include <array>
@@ -8,12 +8,12 @@
 #include <numeric>
 #include <optional>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/admission/admission.h"
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/fit/fit_setup.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/csv.h"
+#include "engine/core/random.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/admission/admission.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/fit/fit_setup.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/fit_parts.h"
-#include "pedicel/discrepancy/fit/numerics.h"
-#include "pedicel/discrepancy/fit/profile.h"
+#include "plugins/discrepancy/fit/fit_parts.h"
+#include "plugins/discrepancy/fit/numerics.h"
+#include "plugins/discrepancy/fit/profile.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,13 +1,13 @@
-#include "pedicel/discrepancy/fit/parameter_request.h"
+#include "plugins/discrepancy/fit/parameter_request.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "engine/core/check.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/simulate/hypothesis.h"
+#include "plugins/discrepancy/simulate/hypothesis.h"
 
 namespace pedicel::discrepancy {
 

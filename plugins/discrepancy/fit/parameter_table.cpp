@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/discrepancy/fit/parameter_fit.h"
+#include "plugins/discrepancy/fit/parameter_fit.h"
 
 namespace pedicel::discrepancy {
 

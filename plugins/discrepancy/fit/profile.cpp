@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/fit/profile.h"
+#include "plugins/discrepancy/fit/profile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/fit/shift_fit.h"
+#include "plugins/discrepancy/fit/shift_fit.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/force/force_course.h"
+#include "plugins/discrepancy/force/force_course.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "pedicel/discrepancy/force/force_space.h"
+#include "plugins/discrepancy/force/force_space.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/force/force_library.h"
+#include "plugins/discrepancy/force/force_library.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
-#include "pedicel/discrepancy/select/evidence.h"
-#include "pedicel/discrepancy/simulate/force_term.h"
+#include "plugins/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/simulate/force_term.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/force/force_space.h"
+#include "plugins/discrepancy/force/force_space.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/force/force_refits.h"
+#include "plugins/discrepancy/force/force_refits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <set>
 #include <utility>
 
-#include "pedicel/discrepancy/data/places.h"
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/select/evidence.h"
-#include "pedicel/discrepancy/simulate/force_term.h"
+#include "plugins/discrepancy/data/places.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/simulate/force_term.h"
 
 namespace pedicel::discrepancy {
 

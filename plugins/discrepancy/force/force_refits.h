@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/force/missing_force.h"
+#include "plugins/discrepancy/force/missing_force.h"
 
 namespace pedicel::discrepancy {
 

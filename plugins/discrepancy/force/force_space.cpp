@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/force/force_space.h"
+#include "plugins/discrepancy/force/force_space.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/data/places.h"
-#include "pedicel/discrepancy/simulate/force_term.h"
-#include "pedicel/discrepancy/simulate/scales.h"
+#include "plugins/discrepancy/data/places.h"
+#include "plugins/discrepancy/simulate/force_term.h"
+#include "plugins/discrepancy/simulate/scales.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/force/missing_force.h"
+#include "plugins/discrepancy/force/missing_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,13 @@
 #include <memory>
 #include <set>
 
-#include "pedicel/discrepancy/data/places.h"
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/force/force_course.h"
-#include "pedicel/discrepancy/force/force_refits.h"
-#include "pedicel/discrepancy/select/continuation.h"
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/discrepancy/simulate/force_term.h"
+#include "plugins/discrepancy/data/places.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/force/force_course.h"
+#include "plugins/discrepancy/force/force_refits.h"
+#include "plugins/discrepancy/select/continuation.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/simulate/force_term.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/force/force_library.h"
+#include "plugins/discrepancy/force/force_library.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/import/c3d_parameters.h"
-#include "pedicel/discrepancy/import/recording_reader.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/csv.h"
+#include "engine/io/table_text.h"
+#include "engine/io/unit_text.h"
+#include "plugins/discrepancy/import/c3d_parameters.h"
+#include "plugins/discrepancy/import/recording_reader.h"
 
 namespace pedicel::discrepancy {
 

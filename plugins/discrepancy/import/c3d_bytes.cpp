@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/import/c3d_bytes.h"
+#include "plugins/discrepancy/import/c3d_bytes.h"
 
 #include <bit>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/import/c3d_parameters.h"
+#include "plugins/discrepancy/import/c3d_parameters.h"
 
 #include <algorithm>
 #include <cmath>

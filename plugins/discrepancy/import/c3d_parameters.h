@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/discrepancy/import/c3d_bytes.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/discrepancy/import/c3d_bytes.h"
 
 namespace pedicel::discrepancy {
 

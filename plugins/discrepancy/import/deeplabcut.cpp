@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/import/headed_table.h"
-#include "pedicel/discrepancy/import/recording_reader.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/import/headed_table.h"
+#include "plugins/discrepancy/import/recording_reader.h"
 
 namespace pedicel::discrepancy {
 

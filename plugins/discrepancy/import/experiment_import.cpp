@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/import/experiment_import.h"
+#include "plugins/discrepancy/import/experiment_import.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "pedicel/discrepancy/data/places.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/data/places.h"
 
 namespace pedicel::discrepancy {
 

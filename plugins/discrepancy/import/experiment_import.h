@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/discrepancy/import/force_record.h"
-#include "pedicel/discrepancy/import/recording.h"
-#include "pedicel/discrepancy/import/world_tracks.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/import/force_record.h"
+#include "plugins/discrepancy/import/recording.h"
+#include "plugins/discrepancy/import/world_tracks.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/import/force_record.h"
+#include "plugins/discrepancy/import/force_record.h"
 
 #include <array>
 
-#include "pedicel/discrepancy/import/machine_column.h"
-#include "pedicel/discrepancy/import/machine_table.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/csv.h"
+#include "engine/io/unit_text.h"
+#include "plugins/discrepancy/import/machine_column.h"
+#include "plugins/discrepancy/import/machine_table.h"
 
 namespace pedicel::discrepancy {
 

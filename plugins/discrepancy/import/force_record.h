@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/discrepancy/import/world_tracks.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
+#include "plugins/discrepancy/import/world_tracks.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/import/headed_table.h"
+#include "plugins/discrepancy/import/headed_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/io/table_dialect.h"
-#include "pedicel/io/table_text.h"
+#include "engine/io/table_dialect.h"
+#include "engine/io/table_text.h"
 
 namespace pedicel::discrepancy {
 

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/number_text.h"
-#include "pedicel/io/table_records.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/number_text.h"
+#include "engine/io/table_records.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/import/machine_column.h"
+#include "plugins/discrepancy/import/machine_column.h"
 
 #include <cmath>
 #include <filesystem>

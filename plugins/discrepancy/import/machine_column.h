@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/import/machine_table.h"
-#include "pedicel/discrepancy/import/world_tracks.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/unit_text.h"
+#include "plugins/discrepancy/import/machine_table.h"
+#include "plugins/discrepancy/import/world_tracks.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/import/machine_table.h"
+#include "plugins/discrepancy/import/machine_table.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/csv.h"
+#include "engine/io/table_text.h"
+#include "engine/io/text_file.h"
+#include "engine/io/unit_text.h"
 
 namespace pedicel::discrepancy {
 

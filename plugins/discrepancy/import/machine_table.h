@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/import/picture_camera.h"
+#include "plugins/discrepancy/import/picture_camera.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/number_text.h"
-#include "pedicel/io/yaml.h"
+#include "engine/core/check.h"
+#include "engine/io/number_text.h"
+#include "engine/io/yaml.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::discrepancy {
 

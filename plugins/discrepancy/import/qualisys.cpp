@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/import/headed_table.h"
-#include "pedicel/discrepancy/import/recording_reader.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/unit_text.h"
+#include "plugins/discrepancy/import/headed_table.h"
+#include "plugins/discrepancy/import/recording_reader.h"
 
 namespace pedicel::discrepancy {
 

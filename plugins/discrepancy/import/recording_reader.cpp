@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/import/recording_reader.h"
+#include "plugins/discrepancy/import/recording_reader.h"
 
 #include <algorithm>
 #include <array>
 #include <set>
 #include <utility>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/text_file.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/text_file.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/discrepancy/import/recording.h"
+#include "plugins/discrepancy/import/recording.h"
 
 namespace pedicel::discrepancy {
 

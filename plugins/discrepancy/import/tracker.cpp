@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/import/headed_table.h"
-#include "pedicel/discrepancy/import/recording_reader.h"
+#include "plugins/discrepancy/import/headed_table.h"
+#include "plugins/discrepancy/import/recording_reader.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/import/world_frame.h"
+#include "plugins/discrepancy/import/world_frame.h"
 
 #include <optional>
 #include <vector>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/number_text.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/number_text.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 /// How the axes of a file lie in the world, from words of the command line. `option` names it in
 /// what is thrown: UsageError.

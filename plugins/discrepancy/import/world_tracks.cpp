@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/import/world_tracks.h"
+#include "plugins/discrepancy/import/world_tracks.h"
 
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/import/world_frame.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/csv.h"
+#include "engine/io/unit_text.h"
+#include "plugins/discrepancy/import/world_frame.h"
 
 namespace pedicel::discrepancy {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/discrepancy/import/picture_camera.h"
-#include "pedicel/discrepancy/import/recording.h"
+#include "engine/core/frames.h"
+#include "plugins/discrepancy/import/picture_camera.h"
+#include "plugins/discrepancy/import/recording.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/log_import/log_contents.h"
+#include "plugins/discrepancy/log_import/log_contents.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "pedicel/mcap/reader.h"
-#include "pedicel/ros_messages/cdr.h"
-#include "pedicel/ros_messages/ros1.h"
-#include "pedicel/rosbag/reader.h"
+#include "engine/mcap/reader.h"
+#include "engine/ros_messages/cdr.h"
+#include "engine/ros_messages/ros1.h"
+#include "engine/rosbag/reader.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/ros_messages/sensor_messages.h"
+#include "engine/core/frames.h"
+#include "engine/ros_messages/sensor_messages.h"
 
 namespace pedicel::discrepancy {
 

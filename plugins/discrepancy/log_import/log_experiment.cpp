@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/log_import/log_experiment.h"
+#include "plugins/discrepancy/log_import/log_experiment.h"
 
-#include "pedicel/discrepancy/scene/scene_tables.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/scene/scene_tables.h"
 
 namespace pedicel::discrepancy {
 

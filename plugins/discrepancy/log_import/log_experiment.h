@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/discrepancy/log_import/log_tables.h"
+#include "plugins/discrepancy/log_import/log_tables.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/log_import/log_map.h"
+#include "plugins/discrepancy/log_import/log_map.h"
 
 #include <algorithm>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/io/csv.h"
+#include "engine/io/text_file.h"
+#include "engine/io/yaml.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "pedicel/discrepancy/log_import/log_tables.h"
+#include "plugins/discrepancy/log_import/log_tables.h"
 
 namespace pedicel::discrepancy {
 

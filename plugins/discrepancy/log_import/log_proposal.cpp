@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/log_import/log_proposal.h"
+#include "plugins/discrepancy/log_import/log_proposal.h"
 
 #include <algorithm>
 #include <set>
 
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "pedicel/discrepancy/log_import/log_contents.h"
-#include "pedicel/discrepancy/log_import/log_scene.h"
+#include "plugins/discrepancy/log_import/log_contents.h"
+#include "plugins/discrepancy/log_import/log_scene.h"
 
 namespace pedicel::discrepancy {
 

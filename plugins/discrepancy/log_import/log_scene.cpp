@@ -1,13 +1,13 @@
-#include "pedicel/discrepancy/log_import/log_scene.h"
+#include "plugins/discrepancy/log_import/log_scene.h"
 
 #include <algorithm>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/common_folder.h"
-#include "pedicel/plant/leaf_template.h"
-#include "pedicel/robot/kinematics.h"
-#include "pedicel/urdf/urdf_reader.h"
-#include "pedicel/world/scene_reader.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/common_folder.h"
+#include "engine/robot/kinematics.h"
+#include "engine/urdf/urdf_reader.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/plant/leaf_template.h"
 
 namespace pedicel::discrepancy {
 

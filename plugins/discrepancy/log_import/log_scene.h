@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/robot/description.h"
-#include "pedicel/world/scene.h"
+#include "engine/core/diagnostics.h"
+#include "engine/robot/description.h"
+#include "engine/world/scene.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/log_import/log_tables.h"
+#include "plugins/discrepancy/log_import/log_tables.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pedicel/discrepancy/log_import/log_contents.h"
-#include "pedicel/discrepancy/log_import/log_map.h"
-#include "pedicel/discrepancy/log_import/log_scene.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/log_import/log_contents.h"
+#include "plugins/discrepancy/log_import/log_map.h"
+#include "plugins/discrepancy/log_import/log_scene.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::discrepancy {
 

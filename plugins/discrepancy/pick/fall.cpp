@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/pick/fall.h"
+#include "plugins/discrepancy/pick/fall.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

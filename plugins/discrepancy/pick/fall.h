@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "pedicel/discrepancy/pick/pick_force.h"
+#include "plugins/discrepancy/pick/pick_force.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/pick/pick.h"
+#include "plugins/discrepancy/pick/pick.h"
 
 #include <cmath>
 #include <utility>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/data/sentence.h"
+#include "engine/core/check.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

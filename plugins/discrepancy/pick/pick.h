@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/pick/fall.h"
-#include "pedicel/discrepancy/pick/pick_record.h"
+#include "plugins/discrepancy/pick/fall.h"
+#include "plugins/discrepancy/pick/pick_record.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/pick/pick_force.h"
+#include "plugins/discrepancy/pick/pick_force.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "pedicel/discrepancy/pick/pick_record.h"
+#include "plugins/discrepancy/pick/pick_record.h"
 
 namespace pedicel::discrepancy {
 

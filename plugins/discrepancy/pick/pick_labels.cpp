@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/pick/pick_labels.h"
+#include "plugins/discrepancy/pick/pick_labels.h"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +6,10 @@
 #include <cmath>
 #include <optional>
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/io/table_text.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/table_text.h"
+#include "engine/io/text_file.h"
+#include "engine/io/unit_text.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

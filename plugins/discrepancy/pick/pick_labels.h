@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/discrepancy/pick/pick_text.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/discrepancy/pick/pick_text.h"
 
 namespace pedicel::discrepancy {
 

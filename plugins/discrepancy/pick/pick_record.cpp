@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/pick/pick_record.h"
+#include "plugins/discrepancy/pick/pick_record.h"
 
 #include <cctype>
 #include <string_view>
 
-#include "pedicel/discrepancy/import/machine_column.h"
-#include "pedicel/discrepancy/import/machine_table.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/unit_text.h"
+#include "engine/io/csv.h"
+#include "engine/io/unit_text.h"
+#include "plugins/discrepancy/import/machine_column.h"
+#include "plugins/discrepancy/import/machine_table.h"
 
 namespace pedicel::discrepancy {
 

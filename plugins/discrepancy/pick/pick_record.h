@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/discrepancy/import/world_tracks.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/discrepancy/import/world_tracks.h"
 
 namespace pedicel::discrepancy {
 

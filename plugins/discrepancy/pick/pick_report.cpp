@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/pick/pick_report.h"
+#include "plugins/discrepancy/pick/pick_report.h"
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/io/html_report.h"
-#include "pedicel/plots/svg_plot.h"
+#include "engine/io/html_report.h"
+#include "engine/plots/svg_plot.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

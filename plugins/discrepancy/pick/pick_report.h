@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "pedicel/discrepancy/pick/pick_text.h"
+#include "plugins/discrepancy/pick/pick_text.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/pick/pick_text.h"
+#include "plugins/discrepancy/pick/pick_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/pick/pick.h"
+#include "plugins/discrepancy/pick/pick.h"
 
 namespace pedicel::discrepancy {
 

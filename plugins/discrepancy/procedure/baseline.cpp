@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/procedure/baseline.h"
+#include "plugins/discrepancy/procedure/baseline.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/data/trial_name.h"
-#include "pedicel/discrepancy/fit/baseline_start.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/trial_name.h"
+#include "plugins/discrepancy/fit/baseline_start.h"
 
 namespace pedicel::discrepancy {
 

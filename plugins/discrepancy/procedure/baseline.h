@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/discrepancy/procedure/model_check.h"
+#include "plugins/discrepancy/procedure/model_check.h"
 
 namespace pedicel::discrepancy {
 

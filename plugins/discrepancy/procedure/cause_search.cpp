@@ -1,14 +1,14 @@
-#include "pedicel/discrepancy/procedure/cause_search.h"
+#include "plugins/discrepancy/procedure/cause_search.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/select/evidence.h"
-#include "pedicel/discrepancy/select/symptom_starts.h"
-#include "pedicel/discrepancy/test/score_test.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/select/symptom_starts.h"
+#include "plugins/discrepancy/test/score_test.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

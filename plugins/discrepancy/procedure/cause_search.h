@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/procedure/force_search.h"
+#include "plugins/discrepancy/procedure/force_search.h"
 
 namespace pedicel::discrepancy {
 

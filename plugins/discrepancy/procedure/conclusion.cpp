@@ -1,15 +1,15 @@
-#include "pedicel/discrepancy/procedure/conclusion.h"
+#include "plugins/discrepancy/procedure/conclusion.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <variant>
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/select/decoys.h"
-#include "pedicel/discrepancy/select/evidence.h"
-#include "pedicel/discrepancy/test/leave_one_out.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/select/decoys.h"
+#include "plugins/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/test/leave_one_out.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

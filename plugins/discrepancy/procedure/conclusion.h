@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/select/findings.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/select/findings.h"
 
 namespace pedicel::discrepancy {
 

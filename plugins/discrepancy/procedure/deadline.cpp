@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/procedure/deadline.h"
+#include "plugins/discrepancy/procedure/deadline.h"
 
 #include <chrono>
 

@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
 
-#include "pedicel/core/stop.h"
-#include "pedicel/discrepancy/data/trial_split.h"
-#include "pedicel/discrepancy/procedure/diagnosis_procedure.h"
-#include "pedicel/discrepancy/select/continuation.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "engine/core/stop.h"
+#include "plugins/discrepancy/data/trial_split.h"
+#include "plugins/discrepancy/procedure/diagnosis_procedure.h"
+#include "plugins/discrepancy/select/continuation.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/admission/admission.h"
-#include "pedicel/discrepancy/fit/numerics.h"
-#include "pedicel/discrepancy/force/missing_force.h"
-#include "pedicel/discrepancy/procedure/next_experiment.h"
-#include "pedicel/discrepancy/select/candidates.h"
-#include "pedicel/discrepancy/select/stalk_strength.h"
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/discrepancy/test/statistics.h"
+#include "plugins/discrepancy/admission/admission.h"
+#include "plugins/discrepancy/fit/numerics.h"
+#include "plugins/discrepancy/force/missing_force.h"
+#include "plugins/discrepancy/procedure/next_experiment.h"
+#include "plugins/discrepancy/select/candidates.h"
+#include "plugins/discrepancy/select/stalk_strength.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/test/statistics.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/procedure/diagnosis_log.h"
+#include "plugins/discrepancy/procedure/diagnosis_log.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <mutex>
 
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

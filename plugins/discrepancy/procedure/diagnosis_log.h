@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/test/statistics.h"
+#include "plugins/discrepancy/test/statistics.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,10 +3,10 @@
 #include <chrono>
 #include <optional>
 
-#include "pedicel/discrepancy/procedure/baseline.h"
-#include "pedicel/discrepancy/procedure/cause_search.h"
-#include "pedicel/discrepancy/procedure/deadline.h"
-#include "pedicel/discrepancy/procedure/verdict_writer.h"
+#include "plugins/discrepancy/procedure/baseline.h"
+#include "plugins/discrepancy/procedure/cause_search.h"
+#include "plugins/discrepancy/procedure/deadline.h"
+#include "plugins/discrepancy/procedure/verdict_writer.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/procedure/diagnosis_state.h"
+#include "plugins/discrepancy/procedure/diagnosis_state.h"
 
 #include <algorithm>
 #include <array>
 
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,11 +3,11 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/fit_setup.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/procedure/diagnosis_log.h"
-#include "pedicel/discrepancy/select/findings.h"
-#include "pedicel/discrepancy/select/search_simulators.h"
+#include "plugins/discrepancy/fit/fit_setup.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/procedure/diagnosis_log.h"
+#include "plugins/discrepancy/select/findings.h"
+#include "plugins/discrepancy/select/search_simulators.h"
 
 namespace pedicel::discrepancy {
 

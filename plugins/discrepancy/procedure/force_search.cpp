@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/procedure/force_search.h"
+#include "plugins/discrepancy/procedure/force_search.h"
 
 namespace pedicel::discrepancy {
 

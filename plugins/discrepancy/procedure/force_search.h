@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "pedicel/discrepancy/procedure/model_check.h"
+#include "plugins/discrepancy/procedure/model_check.h"
 
 namespace pedicel::discrepancy {
 

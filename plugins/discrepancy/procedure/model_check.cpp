@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/procedure/model_check.h"
+#include "plugins/discrepancy/procedure/model_check.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/select/evidence.h"
 
 namespace pedicel::discrepancy {
 

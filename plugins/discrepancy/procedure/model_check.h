@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/discrepancy/procedure/diagnosis_state.h"
+#include "plugins/discrepancy/procedure/diagnosis_state.h"
 
 namespace pedicel::discrepancy {
 

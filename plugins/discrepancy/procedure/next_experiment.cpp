@@ -1,15 +1,15 @@
-#include "pedicel/discrepancy/procedure/next_experiment.h"
+#include "plugins/discrepancy/procedure/next_experiment.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/procedure/trial_designs.h"
-#include "pedicel/discrepancy/simulate/channel.h"
-#include "pedicel/discrepancy/simulate/variant_plant.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/procedure/trial_designs.h"
+#include "plugins/discrepancy/simulate/channel.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/procedure/seen_ratios.h"
+#include "plugins/discrepancy/procedure/seen_ratios.h"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/procedure/shares.h"
+#include "plugins/discrepancy/procedure/shares.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/procedure/conclusion.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/procedure/conclusion.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

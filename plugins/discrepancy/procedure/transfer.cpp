@@ -1,17 +1,17 @@
-#include "pedicel/discrepancy/procedure/transfer.h"
+#include "plugins/discrepancy/procedure/transfer.h"
 
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/admission/admission.h"
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/fit/baseline_start.h"
-#include "pedicel/discrepancy/fit/fit_setup.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/select/findings.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "engine/core/check.h"
+#include "plugins/discrepancy/admission/admission.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/fit/baseline_start.h"
+#include "plugins/discrepancy/fit/fit_setup.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/select/findings.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

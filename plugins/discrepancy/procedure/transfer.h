@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/settings/diagnosis_settings.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/procedure/trial_designs.h"
+#include "plugins/discrepancy/procedure/trial_designs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/discrepancy/data/places.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
+#include "plugins/discrepancy/data/places.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

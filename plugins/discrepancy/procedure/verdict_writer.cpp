@@ -1,14 +1,14 @@
-#include "pedicel/discrepancy/procedure/verdict_writer.h"
+#include "plugins/discrepancy/procedure/verdict_writer.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/procedure/conclusion.h"
-#include "pedicel/discrepancy/procedure/seen_ratios.h"
-#include "pedicel/discrepancy/procedure/shares.h"
-#include "pedicel/discrepancy/select/evidence.h"
-#include "pedicel/discrepancy/select/symptom_numbers.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/procedure/conclusion.h"
+#include "plugins/discrepancy/procedure/seen_ratios.h"
+#include "plugins/discrepancy/procedure/shares.h"
+#include "plugins/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/select/symptom_numbers.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

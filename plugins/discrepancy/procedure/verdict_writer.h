@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/discrepancy/procedure/force_search.h"
+#include "plugins/discrepancy/procedure/force_search.h"
 
 namespace pedicel::discrepancy {
 

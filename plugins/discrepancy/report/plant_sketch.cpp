@@ -1,13 +1,13 @@
-#include "pedicel/discrepancy/report/plant_sketch.h"
+#include "plugins/discrepancy/report/plant_sketch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/discrepancy/data/places.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/plots/svg_canvas.h"
+#include "engine/io/csv.h"
+#include "engine/plots/svg_canvas.h"
+#include "plugins/discrepancy/data/places.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/select/verdict.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,14 +1,14 @@
-#include "pedicel/discrepancy/report/report.h"
+#include "plugins/discrepancy/report/report.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/data/experiment_tables.h"
-#include "pedicel/discrepancy/report/report_card.h"
-#include "pedicel/discrepancy/report/report_plots.h"
-#include "pedicel/discrepancy/report/report_words.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
+#include "plugins/discrepancy/report/report_card.h"
+#include "plugins/discrepancy/report/report_plots.h"
+#include "plugins/discrepancy/report/report_words.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

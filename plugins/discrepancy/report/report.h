@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,13 +1,13 @@
-#include "pedicel/discrepancy/report/report_card.h"
+#include "plugins/discrepancy/report/report_card.h"
 
 #include <algorithm>
 #include <array>
 
-#include "pedicel/discrepancy/report/plant_sketch.h"
-#include "pedicel/discrepancy/report/report_words.h"
-#include "pedicel/discrepancy/report/verdict_tables.h"
-#include "pedicel/discrepancy/test/foretold.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
+#include "plugins/discrepancy/report/plant_sketch.h"
+#include "plugins/discrepancy/report/report_words.h"
+#include "plugins/discrepancy/report/verdict_tables.h"
+#include "plugins/discrepancy/test/foretold.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/discrepancy/report/report_plots.h"
-#include "pedicel/io/html_report.h"
+#include "engine/io/html_report.h"
+#include "plugins/discrepancy/report/report_plots.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,14 +1,14 @@
-#include "pedicel/discrepancy/report/report_plots.h"
+#include "plugins/discrepancy/report/report_plots.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/data/trial_name.h"
-#include "pedicel/discrepancy/simulate/channel.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/plots/svg_heat_map.h"
-#include "pedicel/plots/svg_plot.h"
+#include "engine/plots/svg_heat_map.h"
+#include "engine/plots/svg_plot.h"
+#include "plugins/discrepancy/data/trial_name.h"
+#include "plugins/discrepancy/simulate/channel.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

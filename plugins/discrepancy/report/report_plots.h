@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/test/symptoms.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/test/symptoms.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,13 +1,13 @@
-#include "pedicel/discrepancy/report/report_words.h"
+#include "plugins/discrepancy/report/report_words.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/report/scene_diagnosis_files.h"
+#include "plugins/discrepancy/report/scene_diagnosis_files.h"
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/report/scene_next_report.h"
-#include "pedicel/discrepancy/report/scene_report.h"
-#include "pedicel/discrepancy/scene_procedure/extended_scene.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/report/scene_next_report.h"
+#include "plugins/discrepancy/report/scene_report.h"
+#include "plugins/discrepancy/scene_procedure/extended_scene.h"
 
 namespace pedicel::discrepancy {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/report/scene_next_report.h"
+#include "plugins/discrepancy/report/scene_next_report.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/scene/scene_tables.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/plots/svg_plot.h"
+#include "engine/io/atomic_file.h"
+#include "engine/plots/svg_plot.h"
+#include "plugins/discrepancy/scene/scene_tables.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/discrepancy/scene_next/scene_next.h"
-#include "pedicel/io/html_report.h"
+#include "engine/io/html_report.h"
+#include "plugins/discrepancy/scene_next/scene_next.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,15 +1,15 @@
-#include "pedicel/discrepancy/report/scene_report.h"
+#include "plugins/discrepancy/report/scene_report.h"
 
 #include <cmath>
 #include <functional>
 
-#include "pedicel/discrepancy/report/report_plots.h"
-#include "pedicel/discrepancy/report/report_words.h"
-#include "pedicel/discrepancy/report/scene_next_report.h"
-#include "pedicel/discrepancy/report/verdict_tables.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/plots/svg_plot.h"
+#include "engine/io/atomic_file.h"
+#include "engine/plots/svg_plot.h"
+#include "plugins/discrepancy/report/report_plots.h"
+#include "plugins/discrepancy/report/report_words.h"
+#include "plugins/discrepancy/report/scene_next_report.h"
+#include "plugins/discrepancy/report/verdict_tables.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,7 +1,7 @@
-#include "pedicel/discrepancy/report/verdict_tables.h"
+#include "plugins/discrepancy/report/verdict_tables.h"
 
-#include "pedicel/discrepancy/report/report_words.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
+#include "plugins/discrepancy/report/report_words.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

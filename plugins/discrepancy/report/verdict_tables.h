@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/io/html_report.h"
+#include "engine/io/html_report.h"
+#include "plugins/discrepancy/select/verdict.h"
 
 namespace pedicel::discrepancy {
 

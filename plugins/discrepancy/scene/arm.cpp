@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/scene/arm.h"
+#include "plugins/discrepancy/scene/arm.h"
 
-#include "pedicel/discrepancy/scene/state_changes.h"
-#include "pedicel/geometry/mesh_distance.h"
-#include "pedicel/robot/inertial_sum.h"
-#include "pedicel/robot/shape_field.h"
+#include "engine/geometry/mesh_distance.h"
+#include "engine/robot/inertial_sum.h"
+#include "engine/robot/shape_field.h"
+#include "plugins/discrepancy/scene/state_changes.h"
 
 namespace pedicel::discrepancy {
 

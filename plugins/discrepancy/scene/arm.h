@@ -3,10 +3,10 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/coupling/collider.h"
-#include "pedicel/discrepancy/scene/scene_state.h"
-#include "pedicel/discrepancy/scene/smooth_readings.h"
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
+#include "plugins/coupling/collider.h"
+#include "plugins/discrepancy/scene/scene_state.h"
+#include "plugins/discrepancy/scene/smooth_readings.h"
 
 namespace pedicel::discrepancy {
 

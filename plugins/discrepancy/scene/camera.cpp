@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/scene/camera.h"
+#include "plugins/discrepancy/scene/camera.h"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::discrepancy {
 

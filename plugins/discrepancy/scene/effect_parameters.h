@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/scene/giving_joints.h"
+#include "plugins/discrepancy/scene/giving_joints.h"
 
 namespace pedicel::discrepancy {
 

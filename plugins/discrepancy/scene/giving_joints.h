@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <optional>
 
-#include "pedicel/discrepancy/scene/arm.h"
-#include "pedicel/robot/dynamics.h"
+#include "engine/robot/dynamics.h"
+#include "plugins/discrepancy/scene/arm.h"
 
 namespace pedicel::discrepancy {
 

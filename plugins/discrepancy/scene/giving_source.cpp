@@ -1,50 +1,15 @@
-#include "pedicel/discrepancy/scene/giving_source.h"
+#include "plugins/discrepancy/scene/giving_source.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/contact/self_contact.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
 /// Of the largest compliance across the normal.
 constexpr double least_share = 1.0;
-/// N/m. What is harder touches two segments at once only within a few tenths of a millimetre of the
-/// node between them.
-constexpr double soft = 1.0e5;
-
-// m: nobody is pushed by less.
-double overlap_of(const cosserat::ContactPoint& point) {
-  return std::max(0.0, point.margin - point.gap);
-}
-
-bool are_neighbours(const cosserat::RodModel& model, const cosserat::ContactPoint& one,
-                    const cosserat::ContactPoint& other) {
-  if (one.collider != other.collider) return false;
-  const int a = model.shapes[one.shape].element, b = model.shapes[other.shape].element;
-  return model.elements[a].parent == b || model.elements[b].parent == a;
-}
-
-// A soft collider overlaps the segments beside the nearest one, too. Each would push with the whole
-// stiffness, and the finer the mesh, the harder the contact would be. So together they push as the
-// deepest alone would, shared out by their overlaps: most to the deepest, and alike on both sides
-// of a node.
-void share_stiffness(const cosserat::RodModel& model, std::span<cosserat::ContactPoint> points) {
-  for (cosserat::ContactPoint& one : points) {
-    const double own = overlap_of(one);
-    if (own == 0.0 || one.stiffness >= soft || model.shapes[one.shape].fruit >= 0) continue;
-    double deepest = own, sum = own;
-    for (const cosserat::ContactPoint& other : points) {
-      if (&other == &one || model.shapes[other.shape].fruit >= 0) continue;
-      if (!are_neighbours(model, one, other)) continue;
-      const double overlap = overlap_of(other);
-      deepest = std::max(deepest, overlap);
-      sum += std::pow(overlap / own, 4) * overlap;
-    }
-    one.stiffness *= deepest / sum;
-  }
-}
 }  // namespace
 
 GivingSource::GivingSource(const coupling::ColliderSet& colliders,
@@ -56,7 +21,9 @@ GivingSource::GivingSource(const coupling::ColliderSet& colliders,
       body_(body),
       arm_(arm),
       pushed_(static_cast<std::size_t>(colliders.size()), Vec3::Zero()),
-      pushed_before_(pushed_) {}
+      pushed_before_(pushed_) {
+  inner_.share_later();
+}
 
 bool GivingSource::is_arm_at_stem(const cosserat::RodModel& model, int shape, int collider) const {
   return colliders_.collider(collider).body == body_ &&
@@ -89,7 +56,7 @@ void GivingSource::find(const cosserat::RodModel& model, const cosserat::RodStat
     if (arm_.gives && colliders_.collider(found[i].collider).body == body_)
       give_way(model, state, found[i]);
   }
-  share_stiffness(model, std::span(found).subspan(first));
+  inner_.share_stiffness(model, std::span(found).subspan(first));
 }
 
 void GivingSource::remember(std::span<const cosserat::ContactForce> forces) {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/coupling/collider_source.h"
-#include "pedicel/discrepancy/scene/arm.h"
+#include "plugins/coupling/collider_source.h"
+#include "plugins/discrepancy/scene/arm.h"
 
 namespace pedicel::discrepancy {
 

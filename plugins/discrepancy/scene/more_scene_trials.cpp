@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/scene/more_scene_trials.h"
+#include "plugins/discrepancy/scene/more_scene_trials.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/data/joined_trials.h"
+#include "plugins/discrepancy/data/joined_trials.h"
 
 namespace pedicel::discrepancy {
 

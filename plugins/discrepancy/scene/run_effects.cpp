@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/scene/run_effects.h"
+#include "plugins/discrepancy/scene/run_effects.h"
 
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/discrepancy/simulate/variant_plant.h"
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/scene/scene_state.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/scene/scene_state.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

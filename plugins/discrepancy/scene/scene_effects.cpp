@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/simulate/variant_plant.h"
-#include "pedicel/plant/effect_reader.h"
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
+#include "plugins/plant/effect_reader.h"
 
 namespace pedicel::discrepancy {
 

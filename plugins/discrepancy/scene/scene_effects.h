@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/scene/scene_state.h"
-#include "pedicel/discrepancy/settings/scene_settings.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/yaml.h"
+#include "engine/io/yaml.h"
+#include "plugins/discrepancy/scene/scene_state.h"
+#include "plugins/discrepancy/settings/scene_settings.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 /// Effects of a robot at a plant: its contact, its arm, its instruments. Those of plants alone are
 /// in plugins/effects; either may stand under `effects:` of a scene's experiment.

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/robot/description.h"
-#include "pedicel/world/scene.h"
+#include "engine/robot/description.h"
+#include "engine/world/scene.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 

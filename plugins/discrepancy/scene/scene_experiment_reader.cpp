@@ -2,17 +2,17 @@
 #include <cmath>
 #include <set>
 
-#include "pedicel/discrepancy/scene/camera.h"
-#include "pedicel/discrepancy/scene/run_effects.h"
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/discrepancy/scene/scene_experiment_keys.h"
-#include "pedicel/discrepancy/scene/scene_tables.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/described_map.h"
-#include "pedicel/plant/effect_reader.h"
-#include "pedicel/robot/kinematics.h"
-#include "pedicel/urdf/urdf_reader.h"
-#include "pedicel/world/scene_reader.h"
+#include "engine/io/csv.h"
+#include "engine/io/described_map.h"
+#include "engine/robot/kinematics.h"
+#include "engine/urdf/urdf_reader.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/discrepancy/scene/camera.h"
+#include "plugins/discrepancy/scene/run_effects.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene/scene_experiment_keys.h"
+#include "plugins/discrepancy/scene/scene_tables.h"
+#include "plugins/plant/effect_reader.h"
 
 namespace pedicel::discrepancy {
 

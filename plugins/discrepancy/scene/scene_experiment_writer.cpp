@@ -1,12 +1,12 @@
 #include <algorithm>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/scene/scene_tables.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/common_folder.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/plant/leaf_template.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/common_folder.h"
+#include "engine/io/csv.h"
+#include "engine/io/text_file.h"
+#include "plugins/discrepancy/scene/scene_tables.h"
+#include "plugins/plant/leaf_template.h"
 
 namespace pedicel::discrepancy {
 

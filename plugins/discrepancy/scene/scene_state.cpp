@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/scene/scene_state.h"
+#include "plugins/discrepancy/scene/scene_state.h"
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/robot/kinematics.h"
-#include "pedicel/world/settings.h"
+#include "engine/core/diagnostics.h"
+#include "engine/robot/kinematics.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,8 +3,8 @@
 #include <map>
 #include <vector>
 
-#include "pedicel/coupling/coupling_settings.h"
-#include "pedicel/discrepancy/scene/scene_experiment.h"
+#include "plugins/coupling/coupling_settings.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/discrepancy/scene/scene_experiment.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 /// The tables of a scene experiment's trials. Faults go to the diagnostics with line and column;
 /// what comes back then is empty. They may be written as io::TableText takes it.

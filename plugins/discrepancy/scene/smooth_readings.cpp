@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/scene/smooth_readings.h"
+#include "plugins/discrepancy/scene/smooth_readings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "pedicel/discrepancy/scene/state_changes.h"
+#include "plugins/discrepancy/scene/state_changes.h"
 
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
+#include "plugins/cosserat/model/rotation.h"
 
 namespace pedicel::discrepancy {
 

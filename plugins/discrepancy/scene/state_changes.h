@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/cosserat/model/rod_model.h"
-#include "pedicel/discrepancy/scene/scene_state.h"
+#include "plugins/cosserat/model/rod_model.h"
+#include "plugins/discrepancy/scene/scene_state.h"
 
 /// From the numbers of a scene's state to the things that have them. A diagnosis and a run of the
 /// scene go the same way.

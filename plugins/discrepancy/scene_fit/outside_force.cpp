@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/scene_fit/outside_force.h"
+#include "plugins/discrepancy/scene_fit/outside_force.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "pedicel/discrepancy/scene_fit/scene_fit.h"
+#include "plugins/discrepancy/scene_fit/scene_fit.h"
 
 namespace pedicel::discrepancy {
 

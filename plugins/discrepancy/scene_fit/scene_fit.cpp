@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/scene_fit/scene_fit.h"
+#include "plugins/discrepancy/scene_fit/scene_fit.h"
 
 #include <ceres/ceres.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/fit/bounded_solve.h"
+#include "plugins/discrepancy/fit/bounded_solve.h"
 
 namespace pedicel::discrepancy {
 

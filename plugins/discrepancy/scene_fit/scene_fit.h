@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/scene/scene_data.h"
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/discrepancy/scene/scene_simulator.h"
-#include "pedicel/discrepancy/settings/scene_settings.h"
-#include "pedicel/discrepancy/simulate/hypothesis.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene_predict/scene_simulator.h"
+#include "plugins/discrepancy/settings/scene_settings.h"
+#include "plugins/discrepancy/simulate/hypothesis.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/scene_fit/scene_noise.h"
+#include "plugins/discrepancy/scene_fit/scene_noise.h"
 
 #include <map>
 
-#include "pedicel/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
 

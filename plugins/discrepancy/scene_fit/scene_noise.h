@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "pedicel/discrepancy/scene/scene_data.h"
-#include "pedicel/discrepancy/scene/scene_simulator.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
+#include "plugins/discrepancy/scene_predict/scene_simulator.h"
 
 namespace pedicel::discrepancy {
 

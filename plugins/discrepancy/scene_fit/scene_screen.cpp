@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/scene_fit/scene_screen.h"
+#include "plugins/discrepancy/scene_fit/scene_screen.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/scene_fit/scene_fit.h"
+#include "plugins/discrepancy/scene_fit/scene_fit.h"
 
 namespace pedicel::discrepancy {
 

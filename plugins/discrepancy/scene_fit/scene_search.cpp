@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/scene_fit/scene_search.h"
+#include "plugins/discrepancy/scene_fit/scene_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <span>
 
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/scene_fit/outside_force.h"
-#include "pedicel/discrepancy/scene_fit/scene_fit.h"
-#include "pedicel/discrepancy/scene_fit/scene_screen.h"
+#include "plugins/discrepancy/scene_fit/outside_force.h"
+#include "plugins/discrepancy/scene_fit/scene_fit.h"
+#include "plugins/discrepancy/scene_fit/scene_screen.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/scene_next/arm_way.h"
+#include "plugins/discrepancy/scene_next/arm_way.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "pedicel/discrepancy/scene/arm.h"
-#include "pedicel/discrepancy/scene/scene_simulator.h"
+#include "plugins/discrepancy/scene/arm.h"
+#include "plugins/discrepancy/scene_predict/scene_simulator.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/scene_next/motion_designs.h"
+#include "plugins/discrepancy/scene_next/motion_designs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "pedicel/discrepancy/scene_next/arm_way.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/robot/inverse_kinematics.h"
+#include "engine/io/csv.h"
+#include "engine/robot/inverse_kinematics.h"
+#include "plugins/discrepancy/scene_next/arm_way.h"
 
 namespace pedicel::discrepancy {
 

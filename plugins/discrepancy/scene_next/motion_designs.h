@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/scene_next/scene_next.h"
+#include "plugins/discrepancy/scene_next/scene_next.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/scene/smooth_readings.h"
-#include "pedicel/discrepancy/scene_fit/scene_noise.h"
-#include "pedicel/discrepancy/scene_next/motion_designs.h"
+#include "plugins/discrepancy/scene/smooth_readings.h"
+#include "plugins/discrepancy/scene_fit/scene_noise.h"
+#include "plugins/discrepancy/scene_next/motion_designs.h"
 
 namespace pedicel::discrepancy {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/scene_fit/scene_search.h"
+#include "plugins/discrepancy/scene_fit/scene_search.h"
 
 namespace pedicel::discrepancy {
 

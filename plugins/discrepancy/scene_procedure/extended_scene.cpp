@@ -1,19 +1,19 @@
-#include "pedicel/discrepancy/scene_procedure/extended_scene.h"
+#include "plugins/discrepancy/scene_procedure/extended_scene.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/discrepancy/scene/scene_simulator.h"
-#include "pedicel/discrepancy/simulate/variant_plant.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/csv_cell.h"
-#include "pedicel/io/text_file.h"
-#include "pedicel/plant/plant_file.h"
-#include "pedicel/robot/kinematics.h"
-#include "pedicel/world/scene_writer.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "engine/io/csv_cell.h"
+#include "engine/io/text_file.h"
+#include "engine/robot/kinematics.h"
+#include "engine/world/scene_writer.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene_predict/scene_simulator.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
 

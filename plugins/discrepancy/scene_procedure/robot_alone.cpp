@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/scene_procedure/robot_alone.h"
+#include "plugins/discrepancy/scene_procedure/robot_alone.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
 

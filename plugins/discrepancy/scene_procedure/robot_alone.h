@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/discrepancy/scene/scene_simulator.h"
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/discrepancy/settings/scene_settings.h"
+#include "plugins/discrepancy/scene_predict/scene_simulator.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/settings/scene_settings.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/scene_procedure/scene_decoys.h"
+#include "plugins/discrepancy/scene_procedure/scene_decoys.h"
 
 #include <limits>
 

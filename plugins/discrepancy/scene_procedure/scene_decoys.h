@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "pedicel/discrepancy/scene/scene_data.h"
-#include "pedicel/discrepancy/select/decoys.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
+#include "plugins/discrepancy/select/decoys.h"
 
 namespace pedicel::discrepancy {
 

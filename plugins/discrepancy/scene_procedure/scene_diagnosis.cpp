@@ -1,14 +1,14 @@
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numeric>
 
-#include "pedicel/discrepancy/scene_fit/scene_noise.h"
-#include "pedicel/discrepancy/scene_procedure/robot_alone.h"
-#include "pedicel/discrepancy/scene_procedure/scene_symptoms.h"
-#include "pedicel/discrepancy/scene_procedure/scene_verdict.h"
+#include "plugins/discrepancy/scene_fit/scene_noise.h"
+#include "plugins/discrepancy/scene_procedure/robot_alone.h"
+#include "plugins/discrepancy/scene_procedure/scene_symptoms.h"
+#include "plugins/discrepancy/scene_procedure/scene_verdict.h"
 
 namespace pedicel::discrepancy {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/scene_fit/scene_search.h"
-#include "pedicel/discrepancy/scene_next/scene_next.h"
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/discrepancy/settings/scene_settings.h"
+#include "plugins/discrepancy/scene_fit/scene_search.h"
+#include "plugins/discrepancy/scene_next/scene_next.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/settings/scene_settings.h"
 
 namespace pedicel::discrepancy {
 

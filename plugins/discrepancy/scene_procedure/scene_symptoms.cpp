@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/scene_procedure/scene_symptoms.h"
+#include "plugins/discrepancy/scene_procedure/scene_symptoms.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
 

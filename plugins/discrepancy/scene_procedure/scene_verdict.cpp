@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/scene_procedure/scene_verdict.h"
+#include "plugins/discrepancy/scene_procedure/scene_verdict.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/scene_procedure/scene_decoys.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/scene_procedure/scene_decoys.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 
 namespace pedicel::discrepancy {
 

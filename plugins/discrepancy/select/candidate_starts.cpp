@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/select/candidate_starts.h"
+#include "plugins/discrepancy/select/candidate_starts.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

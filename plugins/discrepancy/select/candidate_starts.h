@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/fit/fit.h"
-#include "pedicel/discrepancy/test/statistics.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/fit/fit.h"
+#include "plugins/discrepancy/test/statistics.h"
 
 namespace pedicel::discrepancy {
 

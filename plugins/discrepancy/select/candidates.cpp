@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/select/candidates.h"
+#include "plugins/discrepancy/select/candidates.h"
 
 #include <algorithm>
 #include <array>
@@ -10,16 +10,16 @@
 #include <set>
 #include <utility>
 
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/discrepancy/fit/profile.h"
-#include "pedicel/discrepancy/select/candidate_starts.h"
-#include "pedicel/discrepancy/select/continuation.h"
-#include "pedicel/discrepancy/select/evidence.h"
-#include "pedicel/discrepancy/select/place_search.h"
-#include "pedicel/discrepancy/select/symptom_starts.h"
-#include "pedicel/discrepancy/test/score_test.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/plant/plant_file.h"
+#include "engine/core/thread_pool.h"
+#include "plugins/discrepancy/fit/profile.h"
+#include "plugins/discrepancy/select/candidate_starts.h"
+#include "plugins/discrepancy/select/continuation.h"
+#include "plugins/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/select/place_search.h"
+#include "plugins/discrepancy/select/symptom_starts.h"
+#include "plugins/discrepancy/test/score_test.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
 

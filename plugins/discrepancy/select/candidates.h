@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/fit/fit.h"
-#include "pedicel/discrepancy/fit/fit_parts.h"
-#include "pedicel/discrepancy/test/held_out.h"
-#include "pedicel/discrepancy/test/statistics.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/fit/fit.h"
+#include "plugins/discrepancy/fit/fit_parts.h"
+#include "plugins/discrepancy/test/held_out.h"
+#include "plugins/discrepancy/test/statistics.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/select/continuation.h"
+#include "plugins/discrepancy/select/continuation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/select/place_search.h"
+#include "plugins/discrepancy/select/place_search.h"
 
 namespace pedicel::discrepancy {
 

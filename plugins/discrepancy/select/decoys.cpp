@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/select/decoys.h"
+#include "plugins/discrepancy/select/decoys.h"
 
 #include <algorithm>
 #include <cmath>

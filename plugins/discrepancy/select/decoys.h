@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "pedicel/discrepancy/simulate/data_set.h"
+#include "plugins/discrepancy/simulate/data_set.h"
 
 namespace pedicel::discrepancy {
 

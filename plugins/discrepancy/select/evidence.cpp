@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/select/evidence.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/simulate/variant_plant.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

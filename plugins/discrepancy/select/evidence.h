@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "pedicel/discrepancy/select/candidates.h"
+#include "plugins/discrepancy/select/candidates.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/select/findings.h"
+#include "plugins/discrepancy/select/findings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/discrepancy/fit/numerics.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/fit/numerics.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/select/candidates.h"
-#include "pedicel/discrepancy/select/needed_parameters.h"
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/discrepancy/test/symptoms.h"
+#include "plugins/discrepancy/select/candidates.h"
+#include "plugins/discrepancy/select/needed_parameters.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/test/symptoms.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/select/needed_parameters.h"
+#include "plugins/discrepancy/select/needed_parameters.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/fit/profile.h"
-#include "pedicel/discrepancy/select/evidence.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/fit/profile.h"
+#include "plugins/discrepancy/select/evidence.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/fit/fit.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/fit/fit.h"
 
 namespace pedicel::discrepancy {
 

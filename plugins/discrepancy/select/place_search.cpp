@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/select/place_search.h"
+#include "plugins/discrepancy/select/place_search.h"
 
 #include <array>
 #include <span>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/profile.h"
+#include "plugins/discrepancy/fit/profile.h"
 
 namespace pedicel::discrepancy {
 

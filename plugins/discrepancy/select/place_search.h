@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/discrepancy/fit/fit.h"
+#include "plugins/discrepancy/fit/fit.h"
 
 namespace pedicel::discrepancy {
 

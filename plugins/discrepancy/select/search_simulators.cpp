@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/select/search_simulators.h"
+#include "plugins/discrepancy/select/search_simulators.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/coarse_model.h"
-#include "pedicel/discrepancy/select/candidates.h"
+#include "plugins/discrepancy/fit/coarse_model.h"
+#include "plugins/discrepancy/select/candidates.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/select/stalk_strength.h"
+#include "plugins/discrepancy/select/stalk_strength.h"
 
 #include <ceres/ceres.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

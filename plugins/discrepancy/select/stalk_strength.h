@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
-#include "pedicel/discrepancy/simulate/stalk_loads.h"
-#include "pedicel/plant/plant_file.h"
+#include "plugins/discrepancy/settings/diagnosis_settings.h"
+#include "plugins/discrepancy/simulate/stalk_loads.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
 

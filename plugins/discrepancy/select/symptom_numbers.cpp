@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/select/symptom_numbers.h"
+#include "plugins/discrepancy/select/symptom_numbers.h"
 
 namespace pedicel::discrepancy {
 

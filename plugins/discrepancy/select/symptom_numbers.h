@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/discrepancy/test/symptoms.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/test/symptoms.h"
 
 namespace pedicel::discrepancy {
 

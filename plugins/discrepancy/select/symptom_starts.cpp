@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/select/symptom_starts.h"
+#include "plugins/discrepancy/select/symptom_starts.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "pedicel/discrepancy/data/sentence.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/data/sentence.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

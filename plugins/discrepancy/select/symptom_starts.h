@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/test/symptoms.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/test/symptoms.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,14 +1,14 @@
-#include "pedicel/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/select/verdict.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
 
-#include "pedicel/core/exit_code.h"
-#include "pedicel/discrepancy/select/verdict_keys.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/io/described_object.h"
+#include "engine/core/exit_code.h"
+#include "engine/io/described_object.h"
+#include "plugins/discrepancy/select/verdict_keys.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

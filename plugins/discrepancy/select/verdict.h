@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/effects/registry/free_parameter.h"
-#include "pedicel/plant/plant_file.h"
+#include "plugins/effects/registry/free_parameter.h"
+#include "plugins/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
+#include "plugins/discrepancy/settings/diagnosis_settings.h"
 
 #include <charconv>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/settings/setting_rows.h"
+#include "engine/core/check.h"
+#include "plugins/discrepancy/settings/setting_rows.h"
 
 namespace pedicel::discrepancy {
 

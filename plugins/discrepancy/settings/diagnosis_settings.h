@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pedicel/core/parameter.h"
+#include "engine/core/parameter.h"
 
 namespace pedicel::discrepancy {
 

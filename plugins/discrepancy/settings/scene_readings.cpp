@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/settings/setting_rows.h"
+#include "plugins/discrepancy/settings/setting_rows.h"
 
 namespace pedicel::discrepancy {
 

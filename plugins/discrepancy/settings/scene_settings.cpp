@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/settings/scene_settings.h"
+#include "plugins/discrepancy/settings/scene_settings.h"
 
 #include <cstdio>
 
-#include "pedicel/discrepancy/settings/setting_rows.h"
+#include "plugins/discrepancy/settings/setting_rows.h"
 
 namespace pedicel::discrepancy {
 

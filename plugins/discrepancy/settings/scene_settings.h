@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
+#include "plugins/discrepancy/settings/diagnosis_settings.h"
 
 namespace pedicel::discrepancy {
 

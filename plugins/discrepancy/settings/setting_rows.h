@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
-#include "pedicel/discrepancy/settings/scene_settings.h"
+#include "plugins/discrepancy/settings/diagnosis_settings.h"
+#include "plugins/discrepancy/settings/scene_settings.h"
 
 namespace pedicel::discrepancy {
 

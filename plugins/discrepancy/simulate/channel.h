@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/discrepancy/simulate/data_set.h"
+#include "plugins/discrepancy/simulate/data_set.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/data_set.h"
+#include "plugins/discrepancy/simulate/data_set.h"
 
 #include <cmath>
 #include <limits>

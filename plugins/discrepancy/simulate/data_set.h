@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/discrepancy/simulate/noise.h"
-#include "pedicel/discrepancy/simulate/path_noise.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
+#include "plugins/discrepancy/simulate/noise.h"
+#include "plugins/discrepancy/simulate/path_noise.h"
+#include "plugins/discrepancy/simulate/simulator.h"
 
 namespace pedicel::discrepancy {
 

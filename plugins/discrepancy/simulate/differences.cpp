@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/differences.h"
+#include "plugins/discrepancy/simulate/differences.h"
 
 #include <algorithm>
 

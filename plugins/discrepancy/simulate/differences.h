@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "pedicel/discrepancy/simulate/hypothesis.h"
+#include "plugins/discrepancy/simulate/hypothesis.h"
 
 namespace pedicel::discrepancy {
 

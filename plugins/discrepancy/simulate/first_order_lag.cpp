@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/first_order_lag.h"
+#include "plugins/discrepancy/simulate/first_order_lag.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/force_term.h"
+#include "plugins/discrepancy/simulate/force_term.h"
 
 #include <cmath>
 #include <cstdarg>

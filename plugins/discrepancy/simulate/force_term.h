@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pedicel/discrepancy/simulate/hypothesis.h"
+#include "plugins/discrepancy/simulate/hypothesis.h"
 
 namespace pedicel::discrepancy {
 

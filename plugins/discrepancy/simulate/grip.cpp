@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/simulate/grip.h"
+#include "plugins/discrepancy/simulate/grip.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

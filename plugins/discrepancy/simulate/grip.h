@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/discrepancy/simulate/guides.h"
-#include "pedicel/discrepancy/simulate/variant_plant.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/discrepancy/simulate/guides.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
 
 namespace pedicel::discrepancy {
 

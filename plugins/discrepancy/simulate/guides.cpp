@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/guides.h"
+#include "plugins/discrepancy/simulate/guides.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/cosserat/contact/contact.h"
+#include "plugins/cosserat/contact/contact.h"
 
 namespace pedicel::discrepancy {
 

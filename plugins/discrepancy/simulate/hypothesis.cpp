@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/simulate/hypothesis.h"
+#include "plugins/discrepancy/simulate/hypothesis.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/simulate/force_term.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/simulate/force_term.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

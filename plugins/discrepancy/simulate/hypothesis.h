@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/simulate/simulator.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/simulate/simulator.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/simulate/modes.h"
+#include "plugins/discrepancy/simulate/modes.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/cosserat/solver/exact_hessian.h"
+#include "engine/core/random.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "plugins/cosserat/solver/exact_hessian.h"
 
 namespace pedicel::discrepancy {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <span>
 
-#include "pedicel/cosserat/solver/block_system.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
-#include "pedicel/discrepancy/simulate/guides.h"
+#include "plugins/cosserat/solver/block_system.h"
+#include "plugins/cosserat/solver/rod_solver.h"
+#include "plugins/discrepancy/simulate/guides.h"
 
 namespace pedicel::discrepancy {
 

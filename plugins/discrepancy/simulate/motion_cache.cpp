@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/motion_cache.h"
+#include "plugins/discrepancy/simulate/motion_cache.h"
 
 namespace pedicel::discrepancy {
 

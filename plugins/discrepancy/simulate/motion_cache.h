@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "pedicel/discrepancy/simulate/observation.h"
+#include "plugins/discrepancy/simulate/observation.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/simulate/moving_start.h"
+#include "plugins/discrepancy/simulate/moving_start.h"
 
 #include <cmath>
 #include <complex>
 
-#include "pedicel/cosserat/model/rotation.h"
+#include "plugins/cosserat/model/rotation.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/discrepancy/simulate/modes.h"
-#include "pedicel/discrepancy/simulate/observation.h"
-#include "pedicel/discrepancy/simulate/variant_plant.h"
+#include "plugins/discrepancy/simulate/modes.h"
+#include "plugins/discrepancy/simulate/observation.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/noise.h"
+#include "plugins/discrepancy/simulate/noise.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/simulate/observation.h"
+#include "plugins/discrepancy/simulate/observation.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/simulate/first_order_lag.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/simulate/first_order_lag.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/simulate/path_noise.h"
+#include "plugins/discrepancy/simulate/path_noise.h"
 
 #include <algorithm>
 
-#include "pedicel/discrepancy/simulate/trial_run.h"
+#include "plugins/discrepancy/simulate/trial_run.h"
 
 namespace pedicel::discrepancy {
 

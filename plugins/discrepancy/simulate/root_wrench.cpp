@@ -1,6 +1,6 @@
-#include "pedicel/discrepancy/simulate/root_wrench.h"
+#include "plugins/discrepancy/simulate/root_wrench.h"
 
-#include "pedicel/cosserat/model/rotation.h"
+#include "plugins/cosserat/model/rotation.h"
 
 namespace pedicel::discrepancy {
 

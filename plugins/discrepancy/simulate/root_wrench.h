@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_state.h"
+#include "plugins/cosserat/model/rod_state.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/simulate/scales.h"
+#include "plugins/discrepancy/simulate/scales.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/plant/plant_builder.h"
+#include "plugins/plant/plant_builder.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/effects/registry/effect_start.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/effects/registry/effect_start.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,17 +1,17 @@
-#include "pedicel/discrepancy/simulate/simulator.h"
+#include "plugins/discrepancy/simulate/simulator.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/discrepancy/data/path_smoothing.h"
-#include "pedicel/discrepancy/simulate/data_set.h"
-#include "pedicel/discrepancy/simulate/motion_cache.h"
-#include "pedicel/discrepancy/simulate/trial_run.h"
-#include "pedicel/io/csv.h"
+#include "engine/core/check.h"
+#include "engine/core/thread_pool.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/data/path_smoothing.h"
+#include "plugins/discrepancy/simulate/data_set.h"
+#include "plugins/discrepancy/simulate/motion_cache.h"
+#include "plugins/discrepancy/simulate/trial_run.h"
 
 namespace pedicel::discrepancy {
 

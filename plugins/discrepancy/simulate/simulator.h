@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/discrepancy/simulate/stalk_loads.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/simulate/stalk_loads.h"
 
 namespace pedicel::discrepancy {
 

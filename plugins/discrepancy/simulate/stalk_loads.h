@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/cosserat/solver/detachment.h"
+#include "plugins/cosserat/solver/detachment.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/start_directions.h"
+#include "plugins/discrepancy/simulate/start_directions.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/discrepancy/simulate/data_set.h"
+#include "plugins/discrepancy/simulate/data_set.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/simulate/noise.h"
-#include "pedicel/discrepancy/simulate/trial_member.h"
+#include "plugins/discrepancy/simulate/noise.h"
+#include "plugins/discrepancy/simulate/trial_member.h"
 
 namespace pedicel::discrepancy {
 

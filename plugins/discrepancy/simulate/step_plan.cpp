@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/step_plan.h"
+#include "plugins/discrepancy/simulate/step_plan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/discrepancy/data/quiet_spans.h"
+#include "plugins/discrepancy/data/quiet_spans.h"
 
 namespace pedicel::discrepancy {
 

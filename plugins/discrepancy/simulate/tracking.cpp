@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/simulate/tracking.h"
+#include "plugins/discrepancy/simulate/tracking.h"
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/discrepancy/simulate/observation.h"
-#include "pedicel/discrepancy/simulate/variant_plant.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/discrepancy/simulate/observation.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
 
 namespace pedicel::discrepancy {
 

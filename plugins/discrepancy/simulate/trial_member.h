@@ -2,12 +2,12 @@
 
 #include <optional>
 
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/discrepancy/simulate/grip.h"
-#include "pedicel/discrepancy/simulate/moving_start.h"
-#include "pedicel/discrepancy/simulate/root_wrench.h"
-#include "pedicel/discrepancy/simulate/tracking.h"
-#include "pedicel/discrepancy/simulate/trial_run.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/discrepancy/simulate/grip.h"
+#include "plugins/discrepancy/simulate/moving_start.h"
+#include "plugins/discrepancy/simulate/root_wrench.h"
+#include "plugins/discrepancy/simulate/tracking.h"
+#include "plugins/discrepancy/simulate/trial_run.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/simulate/trial_run.h"
+#include "plugins/discrepancy/simulate/trial_run.h"
 
 #include <cmath>
 
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/discrepancy/simulate/grip.h"
-#include "pedicel/discrepancy/simulate/trial_member.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/discrepancy/simulate/grip.h"
+#include "plugins/discrepancy/simulate/trial_member.h"
 
 namespace pedicel::discrepancy {
 

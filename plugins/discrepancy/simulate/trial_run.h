@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/discrepancy/simulate/moving_start.h"
-#include "pedicel/discrepancy/simulate/observation.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
-#include "pedicel/discrepancy/simulate/step_plan.h"
-#include "pedicel/discrepancy/simulate/variant_plant.h"
+#include "plugins/discrepancy/simulate/moving_start.h"
+#include "plugins/discrepancy/simulate/observation.h"
+#include "plugins/discrepancy/simulate/simulator.h"
+#include "plugins/discrepancy/simulate/step_plan.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
 
 namespace pedicel::discrepancy {
 

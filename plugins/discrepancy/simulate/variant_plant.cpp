@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/simulate/variant_plant.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
 
 #include <algorithm>
 
-#include "pedicel/core/check.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "engine/core/check.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

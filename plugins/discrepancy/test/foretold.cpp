@@ -1,13 +1,13 @@
-#include "pedicel/discrepancy/test/foretold.h"
+#include "plugins/discrepancy/test/foretold.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "pedicel/discrepancy/data/places.h"
-#include "pedicel/discrepancy/data/trial_name.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/data/places.h"
+#include "plugins/discrepancy/data/trial_name.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

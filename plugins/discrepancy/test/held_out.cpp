@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/test/held_out.h"
+#include "plugins/discrepancy/test/held_out.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/discrepancy/simulate/differences.h"
+#include "plugins/discrepancy/simulate/differences.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/test/leave_one_out.h"
+#include "plugins/discrepancy/test/leave_one_out.h"
 
 namespace pedicel::discrepancy {
 

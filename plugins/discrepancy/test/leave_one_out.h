@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/fit.h"
+#include "plugins/discrepancy/fit/fit.h"
 
 namespace pedicel::discrepancy {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/discrepancy/data/trial_name.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
+#include "plugins/discrepancy/data/trial_name.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

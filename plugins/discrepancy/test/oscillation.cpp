@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/test/oscillation.h"
+#include "plugins/discrepancy/test/oscillation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/discrepancy/test/projection.h"
+#include "plugins/discrepancy/test/projection.h"
 
 namespace pedicel::discrepancy {
 

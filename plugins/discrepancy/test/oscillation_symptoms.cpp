@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/data/trial_name.h"
-#include "pedicel/discrepancy/test/oscillation.h"
-#include "pedicel/discrepancy/test/symptom_parts.h"
+#include "plugins/discrepancy/data/trial_name.h"
+#include "plugins/discrepancy/test/oscillation.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/test/projection.h"
+#include "plugins/discrepancy/test/projection.h"
 
 #include <cmath>
 #include <limits>

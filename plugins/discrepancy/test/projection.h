@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "pedicel/discrepancy/simulate/noise.h"
+#include "plugins/discrepancy/simulate/noise.h"
 
 namespace pedicel::discrepancy {
 

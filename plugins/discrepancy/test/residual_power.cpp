@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/test/residual_power.h"
+#include "plugins/discrepancy/test/residual_power.h"
 
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/FFT>
 
-#include "pedicel/discrepancy/data/sentence.h"
+#include "plugins/discrepancy/data/sentence.h"
 
 namespace pedicel::discrepancy {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/fit/fit.h"
+#include "plugins/discrepancy/fit/fit.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/test/score_test.h"
+#include "plugins/discrepancy/test/score_test.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/test/statistics.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/test/statistics.h"
 
 namespace pedicel::discrepancy {
 

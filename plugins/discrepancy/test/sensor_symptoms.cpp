@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/test/symptom_parts.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/test/statistics.h"
+#include "plugins/discrepancy/test/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <numeric>
 #include <span>
 
-#include "pedicel/core/random.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "engine/core/random.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

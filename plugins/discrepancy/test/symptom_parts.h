@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/discrepancy/data/places.h"
-#include "pedicel/discrepancy/test/projection.h"
-#include "pedicel/discrepancy/test/symptoms.h"
+#include "plugins/discrepancy/data/places.h"
+#include "plugins/discrepancy/test/projection.h"
+#include "plugins/discrepancy/test/symptoms.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/test/symptoms.h"
+#include "plugins/discrepancy/test/symptoms.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-#include "pedicel/discrepancy/test/symptom_parts.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/discrepancy/test/symptom_parts.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/discrepancy/simulate/data_set.h"
+#include "plugins/discrepancy/simulate/data_set.h"
 
 namespace pedicel::discrepancy {
 

@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/effects/registry/effect_start.h"
-#include "pedicel/effects/registry/model_change.h"
-#include "pedicel/io/bounds.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/bounds.h"
+#include "plugins/effects/registry/effect_start.h"
+#include "plugins/effects/registry/model_change.h"
 
 namespace pedicel::io {
 class YamlNode;

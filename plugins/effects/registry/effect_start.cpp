@@ -1,6 +1,6 @@
-#include "pedicel/effects/registry/effect_start.h"
+#include "plugins/effects/registry/effect_start.h"
 
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

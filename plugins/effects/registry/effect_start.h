@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/effects/registry/free_parameter.h"
-#include "pedicel/plant/model/plant_model.h"
+#include "plugins/effects/registry/free_parameter.h"
+#include "plugins/plant/model/plant_model.h"
 
 namespace pedicel::effects {
 

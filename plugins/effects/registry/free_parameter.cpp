@@ -1,4 +1,4 @@
-#include "pedicel/effects/registry/free_parameter.h"
+#include "plugins/effects/registry/free_parameter.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
-#include "pedicel/effects/registry/model_change.h"
+#include "plugins/effects/registry/model_change.h"
 
 #include <algorithm>
 
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::effects {
 

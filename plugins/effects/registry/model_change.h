@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/cosserat/model/rod_model.h"
-#include "pedicel/plant/model/rod_places.h"
+#include "engine/core/diagnostics.h"
+#include "plugins/cosserat/model/rod_model.h"
+#include "plugins/plant/model/rod_places.h"
 
 namespace pedicel::effects {
 

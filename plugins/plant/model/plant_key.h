@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <variant>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/io/bounds.h"
+#include "engine/core/frames.h"
+#include "engine/io/bounds.h"
 
 namespace pedicel::plant {
 

@@ -1,4 +1,4 @@
-#include "pedicel/plant/model/plant_model.h"
+#include "plugins/plant/model/plant_model.h"
 
 namespace pedicel::plant {
 

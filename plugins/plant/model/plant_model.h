@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/frames.h"
-#include "pedicel/plant/model/plant_key.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/frames.h"
+#include "plugins/plant/model/plant_key.h"
 
 namespace pedicel::plant {
 

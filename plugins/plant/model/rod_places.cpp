@@ -1,4 +1,4 @@
-#include "pedicel/plant/model/rod_places.h"
+#include "plugins/plant/model/rod_places.h"
 
 #include <algorithm>
 #include <cmath>

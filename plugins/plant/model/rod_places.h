@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pedicel/plant/model/placed_point.h"
-#include "pedicel/plant/model/plant_model.h"
+#include "plugins/plant/model/placed_point.h"
+#include "plugins/plant/model/plant_model.h"
 
 namespace pedicel::plant {
 

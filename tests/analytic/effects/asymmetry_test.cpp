@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/plant/plant_builder.h"
-#include "support/stem_plants.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/support/stem_plants.h"
 
 namespace pedicel::plant {
 namespace {

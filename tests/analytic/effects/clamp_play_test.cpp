@@ -1,9 +1,9 @@
 // clamp_play: no moment at the root below an angle a, K (phi - a) beyond.
 #include <gtest/gtest.h>
 
-#include "analytic/effects/joint_cases.h"
-#include "pedicel/plant/plant_builder.h"
-#include "support/stem_plants.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/analytic/effects/joint_cases.h"
+#include "tests/support/stem_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

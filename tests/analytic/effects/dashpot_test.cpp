@@ -4,7 +4,7 @@
 // f K (phi - z), z' = (phi - z)/tau, z(0) = 0, loses phi - z = phi exp(-t/tau).
 #include <gtest/gtest.h>
 
-#include "analytic/effects/joint_cases.h"
+#include "tests/analytic/effects/joint_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

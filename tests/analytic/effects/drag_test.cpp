@@ -3,7 +3,7 @@
 // c = 1/2 rho drag_area l (the air moves along -z, phi counts towards -z).
 #include <gtest/gtest.h>
 
-#include "analytic/effects/joint_cases.h"
+#include "tests/analytic/effects/joint_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

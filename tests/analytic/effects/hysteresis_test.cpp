@@ -3,10 +3,10 @@
 // exponent 1 is a sum of exponentials: that is what the solver takes, exactly.
 #include <gtest/gtest.h>
 
-#include "analytic/effects/joint_cases.h"
-#include "pedicel/cosserat/model/turn_frame.h"
-#include "pedicel/plant/plant_builder.h"
-#include "support/stem_plants.h"
+#include "plugins/cosserat/model/turn_frame.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/analytic/effects/joint_cases.h"
+#include "tests/support/stem_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

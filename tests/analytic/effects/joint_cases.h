@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analytic/rod_cases.h"
-#include "pedicel/cosserat/model/rotation.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "tests/analytic/rod_cases.h"
 
 /// A rod of one segment on its joint: one angle phi about the y axis, so that what a joint's law
 /// says can be compared with an ordinary differential equation.

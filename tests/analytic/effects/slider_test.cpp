@@ -5,7 +5,7 @@
 // each reversal, and the loop's area is 4 L (A - L/k).
 #include <gtest/gtest.h>
 
-#include "analytic/effects/joint_cases.h"
+#include "tests/analytic/effects/joint_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "pedicel/plant/plant_builder.h"
+#include "plugins/plant/plant_builder.h"
 
 namespace pedicel::plant {
 namespace {

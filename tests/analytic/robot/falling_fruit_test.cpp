@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "pedicel/world/sim_world.h"
+#include "engine/world/sim_world.h"
 
 namespace pedicel::world {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "unit/robot/robot_cases.h"
+#include "tests/unit/robot/robot_cases.h"
 
 // A robot without motors, damping and friction keeps its energy. Runge-Kutta 4 loses next to
 // nothing; Bullet's default integrator is of first order: half the step, half the error.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "unit/robot/robot_cases.h"
+#include "tests/unit/robot/robot_cases.h"
 
 // A physical pendulum of mass m, whose centre of mass lies l below the hinge, with inertia I about
 // the hinge swings with the amplitude a at the period

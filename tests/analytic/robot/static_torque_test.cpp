@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "pedicel/robot/dynamics.h"
-#include "unit/robot/robot_cases.h"
+#include "engine/robot/dynamics.h"
+#include "tests/unit/robot/robot_cases.h"
 
 // At rest the torque of each joint balances gravity by virtual work: tau_i = dV/dq_i with
 // V = -sum m_k g . c_k(q), the centres of mass c_k from the forward kinematics, differentiated by

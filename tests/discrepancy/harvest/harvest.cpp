@@ -1,19 +1,19 @@
-#include "discrepancy/harvest/harvest.h"
+#include "tests/discrepancy/harvest/harvest.h"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "discrepancy/scene_cases/harvest_case.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/discrepancy/scene/scene_data.h"
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/discrepancy/scene/scene_observe.h"
-#include "pedicel/discrepancy/scene_procedure/extended_scene.h"
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "pedicel/io/yaml.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "engine/io/yaml.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene_predict/scene_observe.h"
+#include "plugins/discrepancy/scene_procedure/extended_scene.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "tests/discrepancy/scene_cases/harvest_case.h"
 
 namespace pedicel::harvest {
 

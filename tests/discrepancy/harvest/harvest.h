@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/scene_cases/scene_case.h"
+#include "tests/discrepancy/scene_cases/scene_case.h"
 
 /// The paper's own comparison with numbers: a real harvest, made by MuJoCo with something hidden in
 /// it, beside what scenes foretell of it.

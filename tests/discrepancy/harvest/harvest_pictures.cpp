@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "discrepancy/harvest/harvest.h"
-#include "pedicel/plots/svg_plot.h"
+#include "engine/plots/svg_plot.h"
+#include "tests/discrepancy/harvest/harvest.h"
 
 namespace pedicel::harvest {
 

@@ -6,12 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "discrepancy/harvest/harvest.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/text_file.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/exit_code.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/text_file.h"
+#include "tests/discrepancy/harvest/harvest.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "discrepancy/harvest/harvest.h"
+#include "tests/discrepancy/harvest/harvest.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::harvest {
 namespace {

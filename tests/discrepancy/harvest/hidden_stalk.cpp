@@ -1,16 +1,16 @@
-#include "discrepancy/harvest/hidden_stalk.h"
+#include "tests/discrepancy/harvest/hidden_stalk.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "discrepancy/scene_cases/draw.h"
-#include "discrepancy/scene_cases/harvest_case.h"
-#include "discrepancy/score_table.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/discrepancy/scene/scene_data.h"
-#include "pedicel/discrepancy/scene_procedure/robot_alone.h"
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
-#include "pedicel/io/csv.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
+#include "plugins/discrepancy/scene_procedure/robot_alone.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "tests/discrepancy/scene_cases/draw.h"
+#include "tests/discrepancy/scene_cases/harvest_case.h"
+#include "tests/discrepancy/score_table.h"
 
 namespace pedicel::harvest {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/scene_cases/scene_case.h"
+#include "tests/discrepancy/scene_cases/scene_case.h"
 
 /// Stalks that only the robot feels: joints and a wrist's wrench, and no marker. Each has a length,
 /// radius, modulus and place of its own, stands elsewhere than its scene says, in a direction that

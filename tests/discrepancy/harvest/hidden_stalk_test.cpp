@@ -1,10 +1,10 @@
-#include "discrepancy/harvest/hidden_stalk.h"
+#include "tests/discrepancy/harvest/hidden_stalk.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::harvest {
 namespace {

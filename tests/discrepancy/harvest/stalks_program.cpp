@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "discrepancy/harvest/hidden_stalk.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/core/exit_code.h"
+#include "engine/io/atomic_file.h"
+#include "tests/discrepancy/harvest/hidden_stalk.h"
 
 int main(int argc, char** argv) {
   using namespace pedicel;

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "discrepancy/scene_cases/scene_case.h"
+#include "tests/discrepancy/scene_cases/scene_case.h"
 
 namespace pedicel::scene_case {
 

@@ -1,4 +1,4 @@
-#include "discrepancy/scene_cases/drawn_case.h"
+#include "tests/discrepancy/scene_cases/drawn_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "discrepancy/scene_cases/draw.h"
-#include "discrepancy/scene_cases/harvest_case.h"
+#include "tests/discrepancy/scene_cases/draw.h"
+#include "tests/discrepancy/scene_cases/harvest_case.h"
 
 namespace pedicel::scene_case {
 

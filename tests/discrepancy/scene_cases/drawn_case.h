@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/scene_cases/scene_case.h"
+#include "tests/discrepancy/scene_cases/scene_case.h"
 
 /// The cases of the scene bench: what each hides, and sizes that a seed draws.
 namespace pedicel::scene_case {

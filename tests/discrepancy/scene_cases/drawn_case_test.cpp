@@ -1,4 +1,4 @@
-#include "discrepancy/scene_cases/drawn_case.h"
+#include "tests/discrepancy/scene_cases/drawn_case.h"
 
 #include <gtest/gtest.h>
 

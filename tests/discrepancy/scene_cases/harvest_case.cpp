@@ -1,4 +1,4 @@
-#include "discrepancy/scene_cases/harvest_case.h"
+#include "tests/discrepancy/scene_cases/harvest_case.h"
 
 #include <algorithm>
 #include <cmath>

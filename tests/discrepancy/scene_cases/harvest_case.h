@@ -1,6 +1,6 @@
 #pragma once
 
-#include "discrepancy/scene_cases/scene_case.h"
+#include "tests/discrepancy/scene_cases/scene_case.h"
 
 /// A harvest: the finger reaches past a stem, takes the fruit of its truss, pushes the stem aside
 /// with its shaft, and pulls until the stalk parts.

@@ -1,4 +1,4 @@
-#include "discrepancy/scene_cases/joint_way.h"
+#include "tests/discrepancy/scene_cases/joint_way.h"
 
 #include <algorithm>
 #include <cmath>

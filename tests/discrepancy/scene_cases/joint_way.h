@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "discrepancy/scene_cases/scene_case.h"
+#include "tests/discrepancy/scene_cases/scene_case.h"
 
 namespace pedicel::scene_case {
 

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "discrepancy/scene_cases/joint_way.h"
-#include "discrepancy/scene_cases/scene_case.h"
+#include "tests/discrepancy/scene_cases/joint_way.h"
+#include "tests/discrepancy/scene_cases/scene_case.h"
 
 namespace pedicel::scene_case {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "discrepancy/scene_cases/scene_case.h"
+#include "tests/discrepancy/scene_cases/scene_case.h"
 
 namespace pedicel::scene_case {
 namespace {

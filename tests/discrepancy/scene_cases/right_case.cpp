@@ -1,9 +1,9 @@
-#include "discrepancy/scene_cases/right_case.h"
+#include "tests/discrepancy/scene_cases/right_case.h"
 
 #include <gtest/gtest.h>
 
-#include "discrepancy/scene_cases/scored_case.h"
-#include "support/temporary_folder.h"
+#include "tests/discrepancy/scene_cases/scored_case.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::scene_case {
 

@@ -7,11 +7,11 @@
 #include <map>
 #include <mutex>
 
-#include "discrepancy/scene_cases/scored_case.h"
-#include "pedicel/core/exit_code.h"
-#include "pedicel/core/stop.h"
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/core/exit_code.h"
+#include "engine/core/stop.h"
+#include "engine/core/thread_pool.h"
+#include "engine/io/atomic_file.h"
+#include "tests/discrepancy/scene_cases/scored_case.h"
 
 namespace {
 

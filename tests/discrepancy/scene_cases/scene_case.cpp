@@ -1,4 +1,4 @@
-#include "discrepancy/scene_cases/scene_case.h"
+#include "tests/discrepancy/scene_cases/scene_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "discrepancy/scene_cases/harvest_case.h"
+#include "tests/discrepancy/scene_cases/harvest_case.h"
 
 namespace pedicel::scene_case {
 

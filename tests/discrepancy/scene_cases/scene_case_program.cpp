@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "discrepancy/scene_cases/drawn_case.h"
-#include "discrepancy/scene_cases/harvest_case.h"
+#include "tests/discrepancy/scene_cases/drawn_case.h"
+#include "tests/discrepancy/scene_cases/harvest_case.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Writes a measured run of an arm at a stem, made by MuJoCo, with something hidden");

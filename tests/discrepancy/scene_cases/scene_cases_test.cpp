@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "discrepancy/scene_cases/right_case.h"
+#include "tests/discrepancy/scene_cases/right_case.h"
 
 namespace pedicel::scene_case {
 namespace {

@@ -1,4 +1,4 @@
-#include "discrepancy/scene_cases/scored_case.h"
+#include "tests/discrepancy/scene_cases/scored_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "discrepancy/score_table.h"
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
+#include "tests/discrepancy/score_table.h"
 
 namespace pedicel::scene_case {
 

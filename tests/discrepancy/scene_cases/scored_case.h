@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/scene_cases/drawn_case.h"
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "tests/discrepancy/scene_cases/drawn_case.h"
 
 namespace pedicel::scene_case {
 

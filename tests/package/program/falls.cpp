@@ -1,13 +1,13 @@
 #include <cstdio>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/world/scene_reader.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/simulation/simulation.h"
 
 int main() {
   pedicel::Diagnostics faults;
   const auto scene = pedicel::world::read_scene(SCENE, faults);
   if (!scene) return std::fputs(faults.text().c_str(), stderr), 3;
-  pedicel::app::Simulation simulation(*scene, {});
+  pedicel::simulation::Simulation simulation(*scene, {});
   while (simulation.world().time() < 0.1) simulation.step();
   std::printf("%ld steps, %zu plant\n", simulation.world().steps(), simulation.plants().size());
   return simulation.world().steps() == 48 && simulation.plants().size() == 1 ? 0 : 1;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "fast_dds.h"
+#include "tests/peers/ros2/fast_dds.h"
 
 using namespace ros2_client;
 

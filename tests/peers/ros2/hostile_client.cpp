@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "fast_dds.h"
+#include "tests/peers/ros2/fast_dds.h"
 
 using namespace ros2_client;
 

@@ -1,12 +1,12 @@
-#include "pedicel/plant/plant_graph.h"
+#include "plugins/plant/plant_graph.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "pedicel/plant/plant_builder.h"
+#include "engine/core/random.h"
+#include "plugins/plant/plant_builder.h"
 
 // The authoring pipeline on random drawings: a stem and branches that start on curves drawn before
 // them, some of them drawn from tip to base, some with a gap below `connect`.

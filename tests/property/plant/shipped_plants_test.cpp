@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/plant/plant_builder.h"
-#include "places.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/support/places.h"
 
 // Every plant file that ships builds, and where it is drawn as it hangs, stays there: no node moves
 // by more than 1 um in 5 s.
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> shipped() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(PEDICEL_SOURCE_DIR "/plants"))
+  for (const auto& entry : fs::directory_iterator(pedicel::test::source_folder() / "plants"))
     if (entry.path().string().ends_with(".plant.yaml")) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
@@ -29,7 +29,7 @@ TEST_P(ShippedPlant, BuildsAndStandsAsDrawn) {
   const auto plant = read_plant_file(GetParam(), diagnostics);
   ASSERT_TRUE(plant) << diagnostics.text();
   BuildOptions options;
-  options.leaf_folders = {PEDICEL_SOURCE_DIR "/assets/leaves"};
+  options.leaf_folders = {pedicel::test::source_folder() / "assets/leaves"};
   const auto built = build_plant(*plant, options, diagnostics);
   ASSERT_TRUE(built) << diagnostics.text();
   EXPECT_EQ(diagnostics.text(), "");  // no warning either: stable

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/cosserat/lanes/lane_kernels.h"
-#include "pedicel/cosserat/solver/attachments.h"
-#include "pedicel/cosserat/solver/block_system.h"
-#include "pedicel/cosserat/solver/rod_rows.h"
-#include "property/rods/garden_check.h"
-#include "property/rods/plain_rotation.h"
-#include "property/rods/plain_step.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/solver/attachments.h"
+#include "plugins/cosserat/solver/block_system.h"
+#include "plugins/cosserat/solver/rod_rows.h"
+#include "tests/property/rods/garden_check.h"
+#include "tests/property/rods/plain_rotation.h"
+#include "tests/property/rods/plain_step.h"
 
 namespace pedicel::plain {
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <limits>
 
-#include "pedicel/cosserat/lanes/lane_kernels.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "property/rods/garden_check.h"
-#include "property/rods/plain_step.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "tests/property/rods/garden_check.h"
+#include "tests/property/rods/plain_step.h"
 
 namespace pedicel::plain {
 

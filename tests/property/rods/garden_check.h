@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "property/rods/random_garden.h"
+#include "tests/property/rods/random_garden.h"
 
 namespace pedicel::plain {
 

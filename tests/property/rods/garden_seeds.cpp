@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "property/rods/garden_check.h"
+#include "tests/property/rods/garden_check.h"
 
 int main(int argc, char** argv) {
   using namespace pedicel::plain;

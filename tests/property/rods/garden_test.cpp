@@ -1,7 +1,7 @@
 // The lane solver against the plain one, on random plants: README.md says what is drawn and judged.
 #include <gtest/gtest.h>
 
-#include "property/rods/garden_check.h"
+#include "tests/property/rods/garden_check.h"
 
 namespace pedicel::plain {
 namespace {

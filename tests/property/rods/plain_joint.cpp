@@ -1,10 +1,10 @@
-#include "property/rods/plain_joint.h"
+#include "tests/property/rods/plain_joint.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/effects_list/joint_terms.h"
+#include "plugins/cosserat/laws/joint_terms.h"
 
 namespace pedicel::plain {
 
@@ -29,7 +29,7 @@ Curve hardening_curve(double b, double u) {
 }
 
 double hardening_of(const cosserat::JointLaw& law) {
-  return law.terms.empty() ? 0.0 : law.terms[effects::first_number("material_nonlinearity")];
+  return law.terms.empty() ? 0.0 : law.terms[laws::first_number("material_nonlinearity")];
 }
 
 Curve slider_curve(double reach, double u) {
@@ -107,7 +107,7 @@ void add_radial(const Vec3& k, double share, const Vec2& y, const Curve& curve, 
 // of a joint that is bent about a alone.
 void add_asymmetry(const Vec3& k, const cosserat::JointLaw& law, const Vec3& phi, JointAnswer& out,
                    Mat2& curved) {
-  const int first = effects::first_number("asymmetry");
+  const int first = laws::first_number("asymmetry");
   if (law.terms.empty() || law.terms[first] == 0.0) return;
   const double c = law.terms[first], p = law.terms[first + 3];
   const Vec2 a(law.terms[first + 1], law.terms[first + 2]);

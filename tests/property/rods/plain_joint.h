@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/model/joint_law.h"
+#include "plugins/cosserat/model/joint_law.h"
 
 namespace pedicel::plain {
 

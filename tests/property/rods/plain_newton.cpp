@@ -2,8 +2,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "property/rods/plain_rotation.h"
-#include "property/rods/plain_step.h"
+#include "tests/property/rods/plain_rotation.h"
+#include "tests/property/rods/plain_step.h"
 
 namespace pedicel::plain {
 

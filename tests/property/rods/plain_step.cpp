@@ -1,8 +1,8 @@
-#include "property/rods/plain_step.h"
+#include "tests/property/rods/plain_step.h"
 
 #include <cmath>
 
-#include "property/rods/plain_rotation.h"
+#include "tests/property/rods/plain_rotation.h"
 
 namespace pedicel::plain {
 

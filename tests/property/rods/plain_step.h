@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "pedicel/cosserat/solver/rod_solver.h"
-#include "property/rods/plain_joint.h"
-#include "property/rods/plain_system.h"
+#include "plugins/cosserat/solver/rod_solver.h"
+#include "tests/property/rods/plain_joint.h"
+#include "tests/property/rods/plain_system.h"
 
 namespace pedicel::plain {
 

@@ -1,4 +1,4 @@
-#include "property/rods/plain_system.h"
+#include "tests/property/rods/plain_system.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>

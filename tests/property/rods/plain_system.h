@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "pedicel/cosserat/model/rod_model.h"
+#include "plugins/cosserat/model/rod_model.h"
 
 /// A second direct solver for the tests, written to be read: one element after the other, in double
 /// precision, in the order in which the elements stand, with Eigen's own decompositions. It shares

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "property/rods/plain_step.h"
-#include "property/rods/random_garden.h"
+#include "tests/property/rods/plain_step.h"
+#include "tests/property/rods/random_garden.h"
 
 namespace pedicel::plain {
 namespace {

@@ -1,9 +1,9 @@
-#include "property/rods/random_garden.h"
+#include "tests/property/rods/random_garden.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "property/rods/plain_rotation.h"
+#include "tests/property/rods/plain_rotation.h"
 
 namespace pedicel::plain {
 

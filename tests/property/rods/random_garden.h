@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/solver/rod_solver.h"
+#include "engine/core/random.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/solver/rod_solver.h"
 
 namespace pedicel::plain {
 

@@ -1,7 +1,7 @@
 // Shapes of trees: what a layout of chains, packs and pieces may meet.
 #include <algorithm>
 
-#include "property/rods/random_garden.h"
+#include "tests/property/rods/random_garden.h"
 
 namespace pedicel::plain {
 

@@ -5,9 +5,9 @@
 
 #include <map>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "pedicel/robot/cartesian_path.h"
-#include "unit/robot/robot_cases.h"
+#include "engine/robot/cartesian_path.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "places.h"
-#include "unit/robot/robot_cases.h"
+#include "tests/support/places.h"
+#include "tests/unit/robot/robot_cases.h"
 
 // Each rule of the URDF reader with the smallest file that breaks it, and the words it answers
 // with.
@@ -223,7 +223,7 @@ TEST(UrdfRefusals, TheXacroCommandNamesTheFilesInQuestion) {
 }
 
 TEST(UrdfRefusals, AMeshThatCannotBeReadIsReportedAtItsLink) {
-  const auto folder = std::filesystem::path(PEDICEL_SOURCE_DIR) / "tests/refusals/robot";
+  const auto folder = pedicel::test::source_folder() / "tests/refusals/robot";
   Diagnostics diagnostics;
   EXPECT_FALSE(
       parse_urdf(shaped("<mesh filename='CMakeLists.txt'/>"), folder / "t.urdf", {}, diagnostics));

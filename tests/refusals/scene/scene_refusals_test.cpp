@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "pedicel/world/scene_reader.h"
+#include "engine/world/scene_reader.h"
 
 namespace pedicel::world {
 namespace {

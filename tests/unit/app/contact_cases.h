@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/world/scene_reader.h"
-#include "support/temporary_folder.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/simulation/simulation.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::app {
 
@@ -19,7 +19,7 @@ class SceneCase {
     std::ofstream(folder_ / name) << text;
   }
 
-  std::unique_ptr<Simulation> simulation(const std::string& scene) const {
+  std::unique_ptr<simulation::Simulation> simulation(const std::string& scene) const {
     write(
         "case.scene.yaml",
         "format: pedicel-scene\nversion: 1\nname: case\npurpose: test\nsee: test\nduration: 11\n" +
@@ -27,7 +27,7 @@ class SceneCase {
     Diagnostics diagnostics;
     const auto read = world::read_scene(folder_ / "case.scene.yaml", diagnostics);
     if (!read) throw InvalidFile(diagnostics);
-    return std::make_unique<Simulation>(*read, SimulationOptions{});
+    return std::make_unique<simulation::Simulation>(*read, simulation::SimulationOptions{});
   }
 
  private:

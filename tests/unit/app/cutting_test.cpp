@@ -1,13 +1,13 @@
 // Cuts through stems: what is cut off goes on as one body with the momentum that it had.
-#include "pedicel/app/plants/cutting.h"
+#include "plugins/simulation/plants/cutting.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/solver/detachment.h"
-#include "unit/app/contact_cases.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/solver/detachment.h"
+#include "tests/unit/app/contact_cases.h"
 
 namespace pedicel::app {
 namespace {
@@ -24,7 +24,7 @@ void write_tree(const SceneCase& files) {
                 "fruits:\n  - {name: fruit, curve: stem, at: 0.9, radius: 0.015, density: 900}\n"));
 }
 
-double mass_of(const Simulation& sim) {
+double mass_of(const simulation::Simulation& sim) {
   double mass = 0.0;
   for (int e = 0; e < sim.rods().model(0).size(); ++e)
     if (sim.rods().state(0).alive[e]) mass += sim.rods().model(0).elements[e].mass;

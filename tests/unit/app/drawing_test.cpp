@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "pedicel/app/draw/pictures.h"
-#include "pedicel/app/draw/plant_drawing.h"
-#include "pedicel/core/random.h"
-#include "pedicel/render/colormap.h"
+#include "app/draw/pictures.h"
+#include "app/draw/plant_drawing.h"
+#include "engine/core/random.h"
+#include "engine/render/colormap.h"
 
 namespace pedicel::app {
 namespace {
@@ -120,7 +120,8 @@ TEST(PlantDrawing, SurfaceStrainIsStretchPlusRadiusTimesCurvature) {
   finish(model);
   RodState stretched = drawn_state(model);
   for (Vec3& p : stretched.position) p.z() *= 1.03;
-  for (int e = 0; e < 5; ++e) EXPECT_NEAR(surface_strain(model, stretched, e), 0.03, 1e-9);
+  for (int e = 0; e < 5; ++e)
+    EXPECT_NEAR(simulation::surface_strain(model, stretched, e), 0.03, 1e-9);
 
   RodState bent = drawn_state(model);
   Vec3 end = Vec3::Zero();
@@ -131,7 +132,7 @@ TEST(PlantDrawing, SurfaceStrainIsStretchPlusRadiusTimesCurvature) {
     bent.position[e] = end;
   }
   // phi is 2 vec(q) in the small-angle limit; the rotation vector would be exactly 0.1.
-  for (int e = 0; e < 5; ++e) EXPECT_NEAR(surface_strain(model, bent, e), 0.008, 1e-5);
+  for (int e = 0; e < 5; ++e) EXPECT_NEAR(simulation::surface_strain(model, bent, e), 0.008, 1e-5);
 }
 
 TEST(PlantDrawing, ColoursStemsByStrainOnRequest) {

@@ -7,9 +7,9 @@
 #include <iostream>
 #include <sstream>
 
-#include "pedicel/app/run/colliders.h"
-#include "places.h"
-#include "unit/app/contact_cases.h"
+#include "plugins/simulation/colliders.h"
+#include "tests/support/places.h"
+#include "tests/unit/app/contact_cases.h"
 
 namespace pedicel::app {
 namespace {
@@ -21,8 +21,8 @@ constexpr double radius = 0.012, height = 0.6;
 // of 5.7735 D / T^2, so D = 34 mm.
 std::string robot_shaking(double from, double to) {
   std::ostringstream text;
-  text << "robot:\n  name: gantry\n  file: " PEDICEL_SOURCE_DIR
-          "/assets/robots/gantry_gripper/gantry_gripper.urdf\n"
+  text << "robot:\n  name: gantry\n  file: " << pedicel::test::source_folder().string()
+       << "/assets/robots/gantry_gripper/gantry_gripper.urdf\n"
           "  position: [0, 0, 0]\n  tool: tool\n  gripper: finger_joint\n  gripper_force: 1.5\n  "
           "joints: {finger_joint: 0.02}\n"
           "  waypoints:\n";
@@ -48,7 +48,7 @@ struct Hold {
 };
 
 template <class FruitPlace>
-Hold shake(Simulation& sim, const FruitPlace& place) {
+Hold shake(simulation::Simulation& sim, const FruitPlace& place) {
   Hold hold;
   Vec3 gripped = Vec3::Zero();
   for (int i = 0; i < 240 * 12; ++i) {

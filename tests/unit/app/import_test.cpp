@@ -1,5 +1,5 @@
 // From a laboratory's files to an experiment that `validate` accepts, through the verb.
-#include "pedicel/app/verbs/import.h"
+#include "app/verbs/import.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <functional>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "support/temporary_folder.h"
-#include "unit/discrepancy/beam_experiment.h"
-#include "unit/import/c3d_file.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
+#include "tests/unit/import/c3d_file.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/app/run/large_plant.h"
+#include "plugins/simulation/large_plant.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ std::string said(std::size_t curves) {
   file.curves.resize(curves);
   for (plant::PlantCurve& curve : file.curves) curve.points.resize(2, Vec3::Zero());
   ::testing::internal::CaptureStderr();
-  say_if_large(file);
+  simulation::say_if_large(file);
   return ::testing::internal::GetCapturedStderr();
 }
 

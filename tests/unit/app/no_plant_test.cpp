@@ -1,10 +1,10 @@
 // Worlds without rods: bodies alone, and an optional plant whose file is not there.
 #include <gtest/gtest.h>
 
-#include "pedicel/app/report/headless.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_reader.h"
-#include "support/temporary_folder.h"
+#include "app/report/headless.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_reader.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,16 +1,16 @@
-#include "pedicel/app/verbs/observe.h"
+#include "app/verbs/observe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "pedicel/app/verbs/validate.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "support/temporary_folder.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "app/verbs/validate.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::app {
 namespace {

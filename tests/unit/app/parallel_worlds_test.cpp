@@ -1,15 +1,15 @@
 // Worlds of one scene read the same meshes and fields and still do not influence each other.
-#include "pedicel/app/bench/parallel_worlds.h"
+#include "app/bench/parallel_worlds.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_reader.h"
-#include "support/stem_plants.h"
-#include "support/temporary_folder.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/simulation/scene_assets.h"
+#include "tests/support/stem_plants.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::app {
 namespace {
@@ -82,8 +82,9 @@ class SceneWorlds : public ::testing::Test {
   }
   ~SceneWorlds() override { ::unsetenv("XDG_CACHE_HOME"); }
 
-  std::shared_ptr<const SceneAssets> assets() const {
-    return std::make_shared<const SceneAssets>(*scene_, SimulationOptions{});
+  std::shared_ptr<const simulation::SceneAssets> assets() const {
+    return std::make_shared<const simulation::SceneAssets>(*scene_,
+                                                           simulation::SimulationOptions{});
   }
 
   TemporaryFolder folder_;
@@ -91,7 +92,7 @@ class SceneWorlds : public ::testing::Test {
 };
 
 /// Steps to the scene's end; the hash then.
-std::uint64_t finish(Simulation& simulation) {
+std::uint64_t finish(simulation::Simulation& simulation) {
   while (simulation.world().time() < simulation.scene().duration - 0.5 * simulation.world().dt())
     simulation.step();
   return simulation.state_hash();
@@ -99,36 +100,36 @@ std::uint64_t finish(Simulation& simulation) {
 
 TEST_F(SceneWorlds, TheSecondWorldHoldsTheSameFieldsMeshesAndPlantDescriptions) {
   const auto shared = assets();
-  const Simulation first(shared), second(shared);
+  const simulation::Simulation first(shared), second(shared);
   EXPECT_EQ(shared.use_count(), 3);  // no world has assets of its own
   EXPECT_EQ(&first.plants(), &second.plants());
   int fields = 0;
   ASSERT_EQ(first.colliders().size(), second.colliders().size());
   for (int c = 0; c < first.colliders().size(); ++c) {
-    if (first.colliders().collider(c).body != robot_body) continue;
+    if (first.colliders().collider(c).body != simulation::robot_body) continue;
     EXPECT_EQ(first.colliders().collider(c).shape, second.colliders().collider(c).shape);
     EXPECT_EQ(first.colliders().collider(c).shape, shared->robot_fields.at(0).at(0));  // one mesh
     ++fields;
   }
   EXPECT_EQ(fields, 2);
-  for (const Simulation* world : {&first, &second})
+  for (const simulation::Simulation* world : {&first, &second})
     for (const robot::Link& link : world->robot()->description().links)
       EXPECT_EQ(link.collisions.at(0).geometry.mesh,
                 shared->robot->links.at(0).collisions.at(0).geometry.mesh);
 }
 
 TEST_F(SceneWorlds, AFruitThatComesOffInOneWorldStaysOnInTheOthers) {
-  Simulation alone(*scene_, {});
+  simulation::Simulation alone(*scene_, {});
   const std::uint64_t expected = finish(alone);
   ASSERT_EQ(alone.plant_step().detached().size(), 1u);
 
   const auto shared = assets();
-  Simulation first(shared), second(shared);
+  simulation::Simulation first(shared), second(shared);
   bool touched = false;
   while (first.plant_step().detached().empty() && first.world().time() < scene_->duration)
     touched |= first.step().contacts > 0;
   EXPECT_TRUE(touched);
-  Simulation third(shared);  // made of assets whose fruit the first world has lost
+  simulation::Simulation third(shared);  // made of assets whose fruit the first world has lost
   EXPECT_FALSE(second.rods().state(0).fruit_gone.at(0));
   EXPECT_FALSE(third.rods().state(0).fruit_gone.at(0));
   EXPECT_EQ(finish(third), expected);
@@ -137,7 +138,7 @@ TEST_F(SceneWorlds, AFruitThatComesOffInOneWorldStaysOnInTheOthers) {
 }
 
 TEST_F(SceneWorlds, AnyNumberOfWorldsAndThreadsEndsInTheStateOfOneSimulation) {
-  Simulation alone(*scene_, {});
+  simulation::Simulation alone(*scene_, {});
   const std::uint64_t expected = finish(alone);
   WorldsOptions options;
   options.dt = scene_->dt;

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/io/csv.h"
-#include "program_case.h"
+#include "engine/io/csv.h"
+#include "tests/unit/app/program_case.h"
 
 namespace pedicel {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "pedicel/app/run/rough_spell.h"
-#include "places.h"
-#include "unit/app/contact_cases.h"
+#include "plugins/simulation/rough_spell.h"
+#include "tests/support/places.h"
+#include "tests/unit/app/contact_cases.h"
 
 namespace pedicel::app {
 namespace {
@@ -19,8 +19,8 @@ struct Way {
 std::string robot_text(const std::vector<Way>& ways, bool down, double gripper) {
   const Vec3& first = ways.front().place;
   std::ostringstream text;
-  text << "robot:\n  name: gantry\n  file: " PEDICEL_SOURCE_DIR
-          "/assets/robots/gantry_gripper/gantry_gripper.urdf\n"
+  text << "robot:\n  name: gantry\n  file: " << pedicel::test::source_folder().string()
+       << "/assets/robots/gantry_gripper/gantry_gripper.urdf\n"
           "  tool: tool\n  gripper: finger_joint\n  joints: {tilt_joint: "
        << (down ? "3.14159265" : "1.5707963") << ", x_joint: " << first.x() - (down ? 0.0 : 0.16)
        << ", z_joint: " << first.z() + (down ? 0.16 : 0.0) << ", finger_joint: " << gripper
@@ -45,7 +45,7 @@ std::string stem_text(const std::string& from, const std::string& to, double rad
 }
 
 /// How many of `steps` found no equilibrium; -1 where the run ended as unstable.
-int unsolved(Simulation& sim, int steps, RoughSpell& rough) {
+int unsolved(simulation::Simulation& sim, int steps, simulation::RoughSpell& rough) {
   int count = 0;
   for (int i = 0; i < steps; ++i) {
     const world::WorldReport& report = sim.step();
@@ -78,7 +78,7 @@ TEST_P(Pinch, BetweenTipsAndGroundItFindsItsEquilibrium) {
     const auto sim = files.simulation(
         scene_text(GetParam(), one.friction) + "ground: {height: 0}\n" +
         robot_text({{0.0, {0, 0, 0.12}}, {one.down, {0, 0, one.tool}}}, true, 0.0));
-    RoughSpell rough;
+    simulation::RoughSpell rough;
     const int count = unsolved(*sim, 360, rough);
     EXPECT_GE(count, 0);
     EXPECT_LT(count, 240);
@@ -99,7 +99,7 @@ TEST_P(Pinch, UnderThePalmItsClampLeavesItNoRoom) {
     const auto sim = files.simulation(
         scene_text(GetParam(), one.friction) +
         robot_text({{0.0, {-0.045, 0, 0.6}}, {one.time, {one.tool, 0, 0.6}}}, false, 0.02));
-    RoughSpell rough;
+    simulation::RoughSpell rough;
     const int count = unsolved(*sim, 300, rough);
     EXPECT_GE(count, 0);
     if (count <= 200) continue;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "pedicel/app/plants/organ_contacts.h"
-#include "pedicel/app/plants/scene_ties.h"
-#include "unit/app/contact_cases.h"
+#include "plugins/simulation/plants/organ_contacts.h"
+#include "plugins/simulation/plants/scene_ties.h"
+#include "tests/unit/app/contact_cases.h"
 
 namespace pedicel::app {
 namespace {
@@ -25,7 +25,7 @@ void write_crossed(const SceneCase& files) {
   files.write("lower.plant.yaml", stem_file("[0, -0.3, 0.5]", "[0, 0.1, 0.5]", 0.006, 2.0e9));
 }
 
-double lowest(const Simulation& sim, int plant) {
+double lowest(const simulation::Simulation& sim, int plant) {
   double height = 1.0e9;
   for (const Vec3& position : sim.rods().state(plant).position)
     height = std::min(height, position.z());
@@ -44,10 +44,10 @@ TEST(PlantContact, AStemPressesOnAnotherOne) {
     apart->step();
     touching->step();
   }
-  EXPECT_TRUE(organ_contacts(apart->rods()).empty());
+  EXPECT_TRUE(simulation::organ_contacts(apart->rods()).empty());
   EXPECT_LT(lowest(*apart, 0), 0.49);
   EXPECT_NEAR(lowest(*apart, 1), 0.5, 1e-5);
-  const std::vector<OrganContact> pairs = organ_contacts(touching->rods());
+  const std::vector<simulation::OrganContact> pairs = simulation::organ_contacts(touching->rods());
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].organ, "upper/stem");
   EXPECT_EQ(pairs[0].other, "lower/stem");
@@ -132,7 +132,7 @@ TEST(SceneTies, HoldEachPlantOfAGrid) {
   ASSERT_EQ(sim->ties().all().size(), 3u);
   EXPECT_EQ(sim->ties().all()[2].name, "tie_1_2");
   for (int i = 0; i < 480; ++i) sim->step();
-  for (const SceneTies::One& tie : sim->ties().all()) {
+  for (const simulation::SceneTies::One& tie : sim->ties().all()) {
     EXPECT_GT(sim->ties().tension(tie), 0.1);
     EXPECT_GT(sim->rods().state(tie.plant).position.back().x(),
               tie.plant + 1e-3);  // pulled towards the post
@@ -153,7 +153,7 @@ TEST(SceneTies, HangPlantsFromAWire) {
   const std::string tie = "ties:\n  - {organ: row/stem, at: 0.9, to_organ: wire/stem";
   const auto sim = files.simulation(plants + tie + ", stiffness: 3000}\n");
   ASSERT_EQ(sim->ties().all().size(), 3u);
-  for (const SceneTies::One& one : sim->ties().all()) {
+  for (const simulation::SceneTies::One& one : sim->ties().all()) {
     const auto course = sim->ties().course(one);
     ASSERT_TRUE(course);
     EXPECT_NEAR(course->to_W.x(), 0.5 * one.plant, 1e-9);  // straight above
@@ -167,7 +167,7 @@ TEST(SceneTies, HangPlantsFromAWire) {
     untied->step();
   }
   EXPECT_LT(lowest(*short_one, 3), lowest(*untied, 3) - 1e-3);
-  for (const SceneTies::One& one : short_one->ties().all())
+  for (const simulation::SceneTies::One& one : short_one->ties().all())
     EXPECT_GT(short_one->ties().tension(one), 0.01) << one.name;
 }
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "pedicel/app/draw/scene_view.h"
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_reader.h"
-#include "support/temporary_folder.h"
+#include "app/draw/scene_view.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/simulation/simulation.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::app {
 namespace {
@@ -33,7 +33,7 @@ fruits:
     Diagnostics diagnostics;
     const auto scene = world::read_scene(folder_ / "p.scene.yaml", diagnostics);
     if (!scene) throw InvalidFile(diagnostics);
-    const Simulation simulation(*scene, {});
+    const simulation::Simulation simulation(*scene, {});
     SceneView view(simulation);
     Frame frame;
     view.fill(frame, false);

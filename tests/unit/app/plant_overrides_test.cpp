@@ -1,4 +1,4 @@
-#include "pedicel/app/plants/plant_overrides.h"
+#include "plugins/simulation/plants/plant_overrides.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ plant::PlantFile plant() {
 
 std::string apply(plant::PlantFile& file, const std::string& key, const std::string& text) {
   Diagnostics diagnostics;
-  apply_plant_overrides(file, {{key, text, {"s.scene.yaml", 7, 9}}}, diagnostics);
+  simulation::apply_plant_overrides(file, {{key, text, {"s.scene.yaml", 7, 9}}}, diagnostics);
   return diagnostics.text();
 }
 

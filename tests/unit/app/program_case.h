@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "pedicel/io/atomic_file.h"
-#include "support/stem_plants.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/stem_plants.h"
 
 namespace pedicel {
 

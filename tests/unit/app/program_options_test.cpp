@@ -3,9 +3,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "program_case.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "tests/unit/app/program_case.h"
 
 namespace pedicel {
 namespace {

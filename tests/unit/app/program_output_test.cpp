@@ -1,9 +1,9 @@
 // What runs write, where, and what they leave when they are stopped, killed, or the disk is full.
 #include <fstream>
 
-#include "pedicel/io/csv.h"
-#include "pedicel/render/video.h"
-#include "program_case.h"
+#include "engine/io/csv.h"
+#include "engine/render/video.h"
+#include "tests/unit/app/program_case.h"
 
 namespace pedicel {
 namespace {

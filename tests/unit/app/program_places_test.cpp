@@ -1,7 +1,7 @@
 // Places that are written to: looked at before anything is touched.
 #include <fstream>
 
-#include "program_case.h"
+#include "tests/unit/app/program_case.h"
 
 namespace pedicel {
 namespace {

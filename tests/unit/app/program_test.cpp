@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "pedicel/cosserat/model/rod_model.h"
-#include "pedicel/io/csv.h"
-#include "program_case.h"
+#include "engine/io/csv.h"
+#include "plugins/cosserat/model/rod_model.h"
+#include "tests/unit/app/program_case.h"
 
 namespace pedicel {
 namespace {

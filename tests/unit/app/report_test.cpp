@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "pedicel/app/report/log_plots.h"
-#include "pedicel/app/report/run_report.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/render/image.h"
+#include "app/report/log_plots.h"
+#include "app/report/run_report.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/atomic_file.h"
+#include "engine/render/image.h"
 
 namespace pedicel::app {
 namespace {

@@ -5,15 +5,15 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "pedicel/app/run/mesh_fields.h"
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/app/verbs/validate.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/geometry/primitives_mesh.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_reader.h"
-#include "places.h"
-#include "support/temporary_folder.h"
+#include "app/verbs/validate.h"
+#include "engine/core/diagnostics.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/simulation/mesh_fields.h"
+#include "plugins/simulation/simulation.h"
+#include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 
 // Robots as people have them, in scenes: where they begin, and meshes of any size.
 namespace pedicel::app {
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string source(const std::string& path) {
-  return std::string(PEDICEL_SOURCE_DIR) + "/" + path;
+  return pedicel::test::source_folder().string() + "/" + path;
 }
 
 /// The triangles of a box as a binary STL.
@@ -106,7 +106,7 @@ TEST_F(RobotFiles, WithoutPlantsNoDistanceGridIsBuilt) {
               urdf + "\n"),
       diagnostics);
   ASSERT_TRUE(alone) << diagnostics.text();
-  const Simulation simulation(*alone, {});
+  const simulation::Simulation simulation(*alone, {});
   EXPECT_THAT(simulation.notes(), ::testing::IsEmpty());
   EXPECT_FALSE(std::filesystem::exists(folder_ / "cache"));
   ASSERT_EQ(simulation.colliders().size(), 1);
@@ -114,7 +114,7 @@ TEST_F(RobotFiles, WithoutPlantsNoDistanceGridIsBuilt) {
 
   const auto together = world::read_scene(scene(urdf), diagnostics);
   ASSERT_TRUE(together) << diagnostics.text();
-  const Simulation with_plant(*together, {});
+  const simulation::Simulation with_plant(*together, {});
   EXPECT_TRUE(std::filesystem::exists(folder_ / "cache"));
 }
 
@@ -167,7 +167,7 @@ TEST_F(RobotFiles, ALargeMeshIsExactNearItAndSaidByValidateAndRun) {
   Diagnostics diagnostics;
   const auto read = world::read_scene(path, diagnostics);
   ASSERT_TRUE(read) << diagnostics.text();
-  const Simulation simulation(*read, {});
+  const simulation::Simulation simulation(*read, {});
   std::string notes;
   for (const std::string& note : simulation.notes()) notes += note + "\n";
   EXPECT_THAT(notes, HasSubstr(warning));
@@ -197,7 +197,7 @@ TEST(MeshFields, AllGridsOfARobotShareABound) {
   }
   double samples = 0.0;
   int exact = 0;
-  for (const MeshField& field : plan_mesh_fields(robot)) {
+  for (const simulation::MeshField& field : simulation::plan_mesh_fields(robot)) {
     samples += geometry::GridDistance::sample_count(field.size, field.grid);
     exact += field.exact_near;
     EXPECT_FALSE(field.exact_near && field.size.x() < 0.1);
@@ -205,8 +205,8 @@ TEST(MeshFields, AllGridsOfARobotShareABound) {
   }
   EXPECT_GT(exact, 0);
   EXPECT_LT(exact, 10);
-  EXPECT_LE(samples, most_robot_samples + 12 * most_coarse_samples);
-  EXPECT_EQ(large_mesh_warnings(robot).size(), static_cast<std::size_t>(exact));
+  EXPECT_LE(samples, simulation::most_robot_samples + 12 * simulation::most_coarse_samples);
+  EXPECT_EQ(simulation::large_mesh_warnings(robot).size(), static_cast<std::size_t>(exact));
 }
 
 }  // namespace

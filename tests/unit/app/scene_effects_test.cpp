@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "pedicel/app/run/scene_assets.h"
-#include "pedicel/app/run/wrench_sensor.h"
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/scene_writer.h"
-#include "unit/discrepancy_scene/arm_at_stem.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/scene_writer.h"
+#include "plugins/simulation/scene_assets.h"
+#include "plugins/simulation/simulation.h"
+#include "plugins/simulation/wrench_sensor.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::app {
 namespace {
@@ -18,7 +19,7 @@ class RunOfScene : public testing::Test {
  protected:
   struct Said {
     Vec3 tip, nail;
-    Wrench wrench;
+    simulation::Wrench wrench;
     double reading = 0.0;  // rad
   };
 
@@ -41,7 +42,7 @@ class RunOfScene : public testing::Test {
   }
 
   Said run(const std::string& effects, double until) {
-    Simulation simulation(scene(effects), {});
+    simulation::Simulation simulation(scene(effects), {});
     while (simulation.world().time() < until - 1.0e-9) {
       const world::WorldReport& report = simulation.step();
       EXPECT_EQ(report.errors, 0) << report.culprit << ": " << report.cause;
@@ -50,7 +51,7 @@ class RunOfScene : public testing::Test {
     const int last = model.size() - 1;
     Said said;
     said.tip = cosserat::point_on(model, simulation.rods().state(0), last, 0.0);
-    const RobotControl& robot = *simulation.robot();
+    const simulation::RobotControl& robot = *simulation.robot();
     said.nail = robot.link_pose(robot.description().link("finger")) * Vec3(0, 0, 0.1);
     said.wrench = simulation.wrenches().front().reading();
     said.reading = robot.reading(0);
@@ -121,8 +122,8 @@ TEST_F(RunOfScene, EncodersReadTheMotorsSideOfJointsThatGiveWay) {
 }
 
 TEST_F(RunOfScene, FrictionOfOneLinkIsTheCollidersOwn) {
-  const Simulation simulation(scene("{name: contact_friction, coefficient: 0.9, link: finger}"),
-                              {});
+  const simulation::Simulation simulation(
+      scene("{name: contact_friction, coefficient: 0.9, link: finger}"), {});
   for (int c = 0; c < simulation.colliders().size(); ++c) {
     const coupling::Collider& one = simulation.colliders().collider(c);
     if (one.link == simulation.robot()->description().link("finger"))
@@ -130,9 +131,9 @@ TEST_F(RunOfScene, FrictionOfOneLinkIsTheCollidersOwn) {
     else
       EXPECT_FALSE(one.friction.has_value());
   }
-  const SceneAssets soft(scene("{name: contact_compliance, stiffness: 700}"), {});
+  const simulation::SceneAssets soft(scene("{name: contact_compliance, stiffness: 700}"), {});
   EXPECT_DOUBLE_EQ(soft.coupling.contact_stiffness, 700.0);
-  const SceneAssets smooth(scene("{name: contact_friction, factor: 0.5}"), {});
+  const simulation::SceneAssets smooth(scene("{name: contact_friction, factor: 0.5}"), {});
   EXPECT_DOUBLE_EQ(smooth.coupling.friction, 0.25);
 }
 
@@ -152,7 +153,7 @@ TEST_F(RunOfScene, ASceneKeepsItsEffectsWhereItIsWritten) {
 TEST_F(RunOfScene, FaultsOfEffectsStandAtTheirPlaceInTheFile) {
   const auto fault = [&](const std::string& effects) -> std::string {
     try {
-      const SceneAssets assets(scene(effects), {});
+      const simulation::SceneAssets assets(scene(effects), {});
     } catch (const InvalidFile& invalid) {
       return invalid.what();
     }
@@ -169,10 +170,10 @@ TEST_F(RunOfScene, FaultsOfEffectsStandAtTheirPlaceInTheFile) {
 }
 
 TEST_F(RunOfScene, WhatIsAboutMeasuredDataIsSaidToChangeNothing) {
-  const Simulation simulation(scene("{name: latency, delay: 0.01}"), {});
+  const simulation::Simulation simulation(scene("{name: latency, delay: 0.01}"), {});
   ASSERT_FALSE(simulation.notes().empty());
   EXPECT_NE(simulation.notes().front().find("latency"), std::string::npos);
-  const Simulation seen(scene("{name: camera_focal, factor: 1.1}"), {});
+  const simulation::Simulation seen(scene("{name: camera_focal, factor: 1.1}"), {});
   ASSERT_FALSE(seen.notes().empty());
   EXPECT_NE(seen.notes().front().find("measured images"), std::string::npos);
 }

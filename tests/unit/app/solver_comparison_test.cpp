@@ -1,16 +1,16 @@
 // The comparison of the solvers on a rod that sags: with the paper's solver fewer nodes are
 // stiffer, with the direct one they are not, and enough sub-steps make the two equal.
-#include "pedicel/app/report/solver_comparison.h"
+#include "app/report/solver_comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_reader.h"
-#include "support/temporary_folder.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_reader.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::app {
 namespace {

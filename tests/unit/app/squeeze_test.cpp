@@ -4,9 +4,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "pedicel/app/run/colliders.h"
-#include "places.h"
-#include "unit/app/contact_cases.h"
+#include "plugins/simulation/colliders.h"
+#include "tests/support/places.h"
+#include "tests/unit/app/contact_cases.h"
 
 namespace pedicel::app {
 namespace {
@@ -21,8 +21,8 @@ struct Way {
 
 std::string robot_text(const std::vector<Way>& ways, double force = 0.0) {
   std::ostringstream text;
-  text << "robot:\n  name: gantry\n  file: " PEDICEL_SOURCE_DIR
-          "/assets/robots/gantry_gripper/gantry_gripper.urdf\n"
+  text << "robot:\n  name: gantry\n  file: " << pedicel::test::source_folder().string()
+       << "/assets/robots/gantry_gripper/gantry_gripper.urdf\n"
           "  tool: tool\n  gripper: finger_joint\n  joints: {x_joint: -0.16, z_joint: 0.6, "
           "tilt_joint: "
           "1.5707963, finger_joint: "
@@ -53,7 +53,7 @@ struct Fingers {
   double sunk = 0.0;                 // m
 };
 
-Fingers fingers_of(const Simulation& sim) {
+Fingers fingers_of(const simulation::Simulation& sim) {
   Fingers fingers;
   const auto& robot = *sim.robot();
   const int links[] = {robot.description().link("left_finger"),
@@ -62,7 +62,7 @@ Fingers fingers_of(const Simulation& sim) {
     if (cosserat::is_self_contact(contact.point.collider)) continue;
     const coupling::Collider& collider = sim.colliders().collider(contact.point.collider);
     for (int f = 0; f < 2; ++f)
-      if (collider.body == robot_body && collider.link == links[f]) {
+      if (collider.body == simulation::robot_body && collider.link == links[f]) {
         fingers.normal[f] += contact.normal;
         const Vec3 outward_W = robot.link_pose(links[f]).rotation * Vec3::UnitY();
         fingers.opening -= contact.normal * contact.point.normal_W.dot(outward_W);
@@ -175,7 +175,7 @@ TEST_P(Squeeze, ASoftFruitIsNotCrushedThrough) {
 // The cherry tomato's last stalk, between the arm's pads, a fruit's shoulder beside it: shut on to
 // 0, then pulled by 50 mm sideways and up. It used to end as unstable, organ unknown.
 TEST_P(Squeeze, TheCherryTomatosStalkIsHeld) {
-  const std::string assets = PEDICEL_SOURCE_DIR;
+  const std::string assets = pedicel::test::source_folder();
   const SceneCase files;
   const auto sim = files.simulation(
       "dt: 0.004166666666666667\ncoupling: {friction: 0.8, direction: " + std::string(GetParam()) +

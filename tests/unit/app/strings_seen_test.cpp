@@ -4,11 +4,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/app/draw/scene_view.h"
-#include "pedicel/app/gltf/gltf_film.h"
-#include "pedicel/app/playback/log_film.h"
-#include "pedicel/app/topics/mcap_log.h"
-#include "unit/app/contact_cases.h"
+#include "app/draw/scene_view.h"
+#include "app/gltf/gltf_film.h"
+#include "app/playback/log_film.h"
+#include "app/topics/mcap_log.h"
+#include "tests/unit/app/contact_cases.h"
 
 namespace pedicel::app {
 namespace {
@@ -52,7 +52,7 @@ class StringsSeen : public testing::Test {
 
   SceneCase files_;
   TemporaryFolder folder_;
-  std::unique_ptr<Simulation> sim_;
+  std::unique_ptr<simulation::Simulation> sim_;
 };
 
 TEST_F(StringsSeen, InPicturesAndFilms) {

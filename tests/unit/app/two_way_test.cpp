@@ -1,16 +1,16 @@
 // Two-way coupling: what a plant feels, the robot or the rigid body feels, in the same step.
 #include <cmath>
 
-#include "pedicel/app/run/colliders.h"
-#include "pedicel/core/random.h"
-#include "unit/app/contact_cases.h"
+#include "engine/core/random.h"
+#include "plugins/simulation/colliders.h"
+#include "tests/unit/app/contact_cases.h"
 
 namespace pedicel::app {
 namespace {
 
 constexpr double dt = 1.0 / 240.0, g = 9.81;
 
-Vec3 force_on_plants(const Simulation& sim) {
+Vec3 force_on_plants(const simulation::Simulation& sim) {
   Vec3 sum = Vec3::Zero();
   for (int p = 0; p < sim.rods().size(); ++p)
     for (const auto& force : sim.rods().contact_forces(p))
@@ -133,7 +133,7 @@ TEST(TwoWay, TheJointFeelsForceTimesLever) {
     sim->step();
     if (i < 720) continue;
     torque += sim->robot()->robot().motor_torques()[0] / 240.0;
-    const auto sum = sim->plant_step().contacts().sum_of_link(robot_body, 1);
+    const auto sum = sim->plant_step().contacts().sum_of_link(simulation::robot_body, 1);
     moment += (sum.place_W.cross(sum.force_W) + sum.moment_W).z() / 240.0;
   }
   EXPECT_NEAR(torque, 2.0, 1e-6);

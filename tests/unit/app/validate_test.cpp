@@ -1,4 +1,4 @@
-#include "pedicel/app/verbs/validate.h"
+#include "app/verbs/validate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "pedicel/io/atomic_file.h"
-#include "places.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/places.h"
 
 namespace pedicel::app {
 namespace {
@@ -35,8 +35,8 @@ class Validate : public ::testing::Test {
 TEST_F(Validate, EveryShippedFileIsGood) {
   std::vector<std::string> files;
   for (const char* folder : {"plants", "assets"})
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(
-             std::filesystem::path(PEDICEL_SOURCE_DIR) / folder)) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(pedicel::test::source_folder() / folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension == ".yaml" || extension == ".urdf") files.push_back(entry.path().string());
     }
@@ -47,7 +47,7 @@ TEST_F(Validate, EveryShippedFileIsGood) {
 
 // What the program writes anywhere, with leaves of its own assets, it reads there.
 TEST_F(Validate, LeavesOfTheProgramAreFoundFromAnyFolder) {
-  const std::string folder = PEDICEL_SOURCE_DIR;
+  const std::string folder = pedicel::test::source_folder();
   const std::string text = io::read_file(folder + "/plants/cherry_tomato.plant.yaml");
   EXPECT_EQ(validate({write("elsewhere/saved.plant.yaml", text)}), 0) << text_;
   EXPECT_EQ(validate({write("elsewhere/saved.scene.yaml",
@@ -58,7 +58,8 @@ TEST_F(Validate, LeavesOfTheProgramAreFoundFromAnyFolder) {
 }
 
 TEST_F(Validate, OneBadFileIsEnough) {
-  const std::string good = std::string(PEDICEL_SOURCE_DIR) + "/plants/cherry_tomato.plant.yaml";
+  const std::string good =
+      pedicel::test::source_folder().string() + "/plants/cherry_tomato.plant.yaml";
   const std::string bad = write("bad.plant.yaml", "format: pedicel-plant\nversion: 1\n");
   EXPECT_EQ(validate({bad, good}), 3);
   EXPECT_THAT(text_, HasSubstr("bad.plant.yaml:1:1: error: missing key"));
@@ -67,7 +68,7 @@ TEST_F(Validate, OneBadFileIsEnough) {
 
 // Whatever builds a plant says how far it settles from its drawing.
 TEST_F(Validate, SaysHowAPlantStands) {
-  const std::string folder = PEDICEL_SOURCE_DIR;
+  const std::string folder = pedicel::test::source_folder();
   EXPECT_EQ(validate({folder + "/plants/cherry_tomato.plant.yaml"}), 0);
   EXPECT_THAT(text_, ContainsRegex("plant, good; settles [0-9.e-]+ mm from its drawing at "
                                    "cherry tomato/[a-z0-9_]+, [0-9.e-]+ mm rms\n"));

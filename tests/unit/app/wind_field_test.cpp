@@ -1,13 +1,13 @@
 // Wind over a scene: its mean, gusts that travel, shelter behind plants, and what it does to a
 // stem.
-#include "pedicel/app/plants/wind_field.h"
+#include "plugins/simulation/plants/wind_field.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "unit/app/contact_cases.h"
+#include "engine/core/random.h"
+#include "tests/unit/app/contact_cases.h"
 
 namespace pedicel::app {
 namespace {
@@ -26,7 +26,7 @@ TEST(WindField, GustsHaveTheirIntensityAndTheMeanStays) {
   Vec3 mean = Vec3::Zero(), squares = Vec3::Zero();
   int count = 0;
   for (int seed = 0; seed < 20; ++seed) {
-    const WindField field(gusty(), seed, none);
+    const simulation::WindField field(gusty(), seed, none);
     for (int i = 0; i < 2000; ++i) {
       const Vec3 v = field.velocity(Vec3(0.37 * i, 0.11 * i, 2.0 + 0.07 * i), 0.0) - Vec3(4, 0, 0);
       mean += v;
@@ -41,7 +41,7 @@ TEST(WindField, GustsHaveTheirIntensityAndTheMeanStays) {
 
 TEST(WindField, GustsTravelWithTheMeanWind) {
   cosserat::RodSystem none{cosserat::RodSettings{}};
-  const WindField field(gusty(), 3, none);
+  const simulation::WindField field(gusty(), 3, none);
   const Vec3 place(0.3, -0.2, 1.1);
   for (const double later : {0.1, 0.7, 3.0})
     EXPECT_LT(
@@ -79,7 +79,7 @@ TEST(WindField, SumsItsWavesAsOneByOne) {
   world::SceneWind wind = gusty();
   wind.roughness = 0.0;
   for (int seed = 0; seed < 20; ++seed) {
-    const WindField field(wind, seed, none);
+    const simulation::WindField field(wind, seed, none);
     Random random(seed);
     for (int i = 0; i < 200; ++i) {
       const Vec3 place(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(0, 3));
@@ -94,7 +94,7 @@ TEST(WindField, SumsItsWavesAsOneByOne) {
 
 TEST(WindField, TheAirKeepsItsVolume) {
   cosserat::RodSystem none{cosserat::RodSettings{}};
-  const WindField field(gusty(), 5, none);
+  const simulation::WindField field(gusty(), 5, none);
   const double h = 1e-4;
   for (int i = 0; i < 20; ++i) {
     const Vec3 place(0.3 * i, 0.2 * i, 1.0 + 0.1 * i);
@@ -115,7 +115,7 @@ TEST(WindField, TheMeanGrowsWithTheLogarithmOfTheHeight) {
   world::SceneWind wind = gusty();
   wind.intensity = 0.0;
   wind.roughness = 0.1;
-  const WindField field(wind, 0, none);
+  const simulation::WindField field(wind, 0, none);
   EXPECT_NEAR(field.velocity(Vec3(1, 2, 2), 1.0).x(), 4.0, 1e-12);
   EXPECT_NEAR(field.velocity(Vec3(1, 2, 0.5), 1.0).x(), 4.0 * std::log(5.0) / std::log(20.0),
               1e-12);
@@ -131,7 +131,7 @@ TEST(WindField, StemsBehindEachOtherGetLess) {
       "0.5]}}\n  - {name: beside, file: stem.plant.yaml, position: [0.5, 1, 0]}\n"
       "wind: {velocity: [3, 0, 0]}\n");
   world::SceneWind wind = gusty();
-  const WindField field(wind, 0, sim->rods());
+  const simulation::WindField field(wind, 0, sim->rods());
   const int middle = sim->rods().model(0).size() / 2;
   EXPECT_EQ(field.shelter(0, middle), 1.0);
   EXPECT_EQ(field.shelter(3, middle), 1.0);
@@ -166,7 +166,9 @@ TEST(WindField, BladesAreExposedAsPlates) {
   cosserat::add_element(model, 0, Vec3(0.1, 0.1, 0),
                         cosserat::circle_section(0.001, cosserat::Material{}));
   cosserat::finish(model);
-  expose_to_wind(model, {Blade{BladeCorner{0, 0.0}, BladeCorner{1, 0.0}, BladeCorner{2, 0.0}}});
+  simulation::expose_to_wind(
+      model, {simulation::Blade{simulation::BladeCorner{0, 0.0}, simulation::BladeCorner{1, 0.0},
+                                simulation::BladeCorner{2, 0.0}}});
   // The triangle has 5e-3 m2, a third of it at each corner, over a length of 0.1 m.
   for (int e = 0; e < 3; ++e) {
     EXPECT_NEAR(model.air[e].plate_normal, 1.17 * 5e-3 / 3.0 / 0.1, 1e-12);

@@ -1,7 +1,7 @@
 // Cases and their results: whole or not there, done once, refused as a mixture.
 #include <fstream>
 
-#include "unit/cluster/cluster_site.h"
+#include "tests/unit/cluster/cluster_site.h"
 
 namespace pedicel::cluster {
 namespace {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
-#include "pedicel/cluster/campaign.h"
-#include "pedicel/cluster/case_run.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
+#include "engine/cluster/campaign.h"
+#include "engine/cluster/case_run.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel::cluster {
 

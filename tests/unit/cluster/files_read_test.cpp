@@ -1,10 +1,10 @@
 // Which files a reader opened.
-#include "pedicel/core/files_read.h"
+#include "engine/core/files_read.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 namespace pedicel {
 namespace {

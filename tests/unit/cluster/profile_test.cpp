@@ -1,8 +1,8 @@
 // A profile of a cluster, and what the command line says over it.
 #include <CLI/CLI.hpp>
 
-#include "pedicel/cluster/cluster_profile.h"
-#include "unit/cluster/cluster_site.h"
+#include "engine/cluster/cluster_profile.h"
+#include "tests/unit/cluster/cluster_site.h"
 
 namespace pedicel::cluster {
 namespace {

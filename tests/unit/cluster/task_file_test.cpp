@@ -1,9 +1,9 @@
 // The task file: what names a case's results, blocks, what is refused.
-#include "pedicel/cluster/task_file.h"
+#include "engine/cluster/task_file.h"
 
-#include "pedicel/cluster/job_list.h"
-#include "pedicel/cluster/sha256.h"
-#include "unit/cluster/cluster_site.h"
+#include "engine/cluster/job_list.h"
+#include "engine/cluster/sha256.h"
+#include "tests/unit/cluster/cluster_site.h"
 
 namespace pedicel::cluster {
 namespace {

@@ -1,8 +1,8 @@
-#include "pedicel/core/diagnostics.h"
+#include "engine/core/diagnostics.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel {
 namespace {

@@ -1,8 +1,8 @@
-#include "pedicel/core/frames.h"
+#include "engine/core/frames.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/core/random.h"
+#include "engine/core/random.h"
 
 namespace pedicel {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/core/random.h"
+#include "engine/core/random.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pedicel/core/ring_down.h"
+#include "engine/core/ring_down.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pedicel/core/state_hash.h"
+#include "engine/core/state_hash.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What signals do to a program before and after it has begun output.
-#include "pedicel/core/stop.h"
+#include "engine/core/stop.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

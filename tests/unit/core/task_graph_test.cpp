@@ -1,14 +1,14 @@
 // Tasks that need others: every one once, after what it needs, on any number of threads, and in as
 // little time as list scheduling promises.
-#include "pedicel/core/task_graph.h"
+#include "engine/core/task_graph.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
 
 namespace pedicel {
 namespace {

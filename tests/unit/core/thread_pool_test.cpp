@@ -1,4 +1,4 @@
-#include "pedicel/core/thread_pool.h"
+#include "engine/core/thread_pool.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/state_hash.h"
+#include "engine/core/check.h"
+#include "engine/core/state_hash.h"
 
 namespace pedicel {
 namespace {

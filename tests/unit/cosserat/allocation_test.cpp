@@ -2,12 +2,12 @@
 // call of the global operator new; it is a program of its own because of that.
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
-#include "analytic/sphere_source.h"
-#include "pedicel/cosserat/contact/plant_blades.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "support/allocation_counter.h"
-#include "unit/cosserat/extension_cases.h"
+#include "plugins/cosserat/contact/plant_blades.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "tests/analytic/rod_cases.h"
+#include "tests/analytic/sphere_source.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/unit/cosserat/extension_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

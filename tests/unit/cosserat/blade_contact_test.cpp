@@ -1,14 +1,14 @@
 // Leaf blades against other plants: where a triangle and an axis are nearest, that both sides feel
 // one force at one place, and that nothing goes through.
-#include "pedicel/cosserat/contact/blade_contact.h"
+#include "plugins/cosserat/contact/blade_contact.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "analytic/rod_cases.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "unit/cosserat/random_plants.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "tests/analytic/rod_cases.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -1,5 +1,5 @@
 // The symbolic phase against the theorem on fill, and the fill of the loops that plants have.
-#include "pedicel/cosserat/solver/block_structure.h"
+#include "plugins/cosserat/solver/block_structure.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "unit/cosserat/loop_graphs.h"
+#include "tests/unit/cosserat/loop_graphs.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -1,13 +1,13 @@
 // The block factorisation against a dense solution of the same system.
-#include "pedicel/cosserat/solver/block_system.h"
+#include "plugins/cosserat/solver/block_system.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "unit/cosserat/loop_graphs.h"
-#include "unit/cosserat/random_plants.h"
+#include "tests/unit/cosserat/loop_graphs.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

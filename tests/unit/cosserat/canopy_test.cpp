@@ -1,17 +1,17 @@
 // Plants that touch each other: what they share, that both sides feel one force, and that nothing
 // changes for those that are far apart.
-#include "pedicel/cosserat/solver/canopy.h"
+#include "plugins/cosserat/solver/canopy.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "analytic/rod_cases.h"
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/plant/reference_plants.h"
-#include "unit/cosserat/random_plants.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/plant/reference_plants.h"
+#include "tests/analytic/rod_cases.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -1,11 +1,11 @@
-#include "pedicel/cosserat/contact/contact_drive.h"
+#include "plugins/cosserat/contact/contact_drive.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "pedicel/core/random.h"
+#include "engine/core/random.h"
 
 namespace pedicel::cosserat {
 namespace {

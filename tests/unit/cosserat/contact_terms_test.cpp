@@ -1,15 +1,15 @@
 // Contact and friction as energies, and what they do in a step.
-#include "pedicel/cosserat/solver/contact_terms.h"
+#include "plugins/cosserat/solver/contact_terms.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 
-#include "analytic/rod_cases.h"
-#include "analytic/sphere_source.h"
-#include "pedicel/cosserat/lanes/lane_kernels.h"
-#include "pedicel/cosserat/model/rotation.h"
-#include "unit/cosserat/random_plants.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "tests/analytic/rod_cases.h"
+#include "tests/analytic/sphere_source.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -1,10 +1,10 @@
 // Fruits that come off: at their threshold, with the right cause, and with their momentum.
-#include "pedicel/cosserat/solver/detachment.h"
+#include "plugins/cosserat/solver/detachment.h"
 
 #include <gtest/gtest.h>
 
-#include "analytic/rod_cases.h"
-#include "unit/cosserat/random_plants.h"
+#include "tests/analytic/rod_cases.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -2,8 +2,8 @@
 // motion; and the Hessian where it is exact.
 #include <gtest/gtest.h>
 
-#include "unit/cosserat/random_plants.h"
-#include "unit/cosserat/step_potential.h"
+#include "tests/unit/cosserat/random_plants.h"
+#include "tests/unit/cosserat/step_potential.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

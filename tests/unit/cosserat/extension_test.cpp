@@ -4,12 +4,12 @@
 
 #include <functional>
 
-#include "pedicel/cosserat/lanes/lane_kernels.h"
-#include "pedicel/cosserat/model/turn_frame.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "support/rod_tips.h"
-#include "unit/cosserat/extension_cases.h"
-#include "unit/cosserat/step_potential.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/model/turn_frame.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "tests/support/rod_tips.h"
+#include "tests/unit/cosserat/extension_cases.h"
+#include "tests/unit/cosserat/step_potential.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

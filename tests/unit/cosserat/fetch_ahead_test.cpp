@@ -1,5 +1,5 @@
 // What is asked for shows in nothing but time (the benchmarks of rows); how it is shared out does.
-#include "pedicel/cosserat/lanes/fetch_ahead.h"
+#include "plugins/cosserat/lanes/fetch_ahead.h"
 
 #include <gtest/gtest.h>
 

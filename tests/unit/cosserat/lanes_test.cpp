@@ -5,12 +5,12 @@
 #include <array>
 #include <set>
 
-#include "pedicel/cosserat/lanes/lane_kernels.h"
-#include "pedicel/cosserat/lanes/lane_layout.h"
-#include "pedicel/plant/reference_plants.h"
-#include "support/rod_tips.h"
-#include "unit/cosserat/extension_cases.h"
-#include "unit/cosserat/step_potential.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/lanes/lane_layout.h"
+#include "plugins/plant/reference_plants.h"
+#include "tests/support/rod_tips.h"
+#include "tests/unit/cosserat/extension_cases.h"
+#include "tests/unit/cosserat/step_potential.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

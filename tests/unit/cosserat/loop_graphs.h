@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/model/rod_model.h"
+#include "engine/core/random.h"
+#include "plugins/cosserat/model/rod_model.h"
 
 /// Plants reduced to what is next to what: elements with nothing but a parent, and welds.
 namespace pedicel::cosserat::cases {

@@ -1,6 +1,6 @@
 // Parts of plants with loops: what belongs to them, and their elimination in lanes against the
 // block system.
-#include "pedicel/cosserat/lanes/loop_shape.h"
+#include "plugins/cosserat/lanes/loop_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 #include <iterator>
 #include <set>
 
-#include "pedicel/cosserat/lanes/lane_kernels.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "unit/cosserat/extension_cases.h"
-#include "unit/cosserat/loop_graphs.h"
-#include "unit/cosserat/random_leaves.h"
-#include "unit/cosserat/step_potential.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "tests/unit/cosserat/extension_cases.h"
+#include "tests/unit/cosserat/loop_graphs.h"
+#include "tests/unit/cosserat/random_leaves.h"
+#include "tests/unit/cosserat/step_potential.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -1,8 +1,8 @@
 // What is computed once of a plant: frames, stiffness of joints, inertia.
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "unit/cosserat/random_plants.h"
+#include "engine/core/check.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <array>
 
-#include "analytic/rod_cases.h"
-#include "pedicel/core/check.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/plant/reference_plants.h"
+#include "engine/core/check.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/plant/reference_plants.h"
+#include "tests/analytic/rod_cases.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -1,10 +1,10 @@
 // The position-based constraints: gradients by differences, zero at rest, unchanged by rigid
 // motion.
-#include "pedicel/cosserat/solver/position_based_constraints.h"
+#include "plugins/cosserat/solver/position_based_constraints.h"
 
 #include <gtest/gtest.h>
 
-#include "unit/cosserat/random_plants.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "analytic/rod_cases.h"
-#include "unit/cosserat/random_plants.h"
+#include "tests/analytic/rod_cases.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

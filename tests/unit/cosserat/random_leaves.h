@@ -1,6 +1,6 @@
 #pragma once
 
-#include "unit/cosserat/random_plants.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 

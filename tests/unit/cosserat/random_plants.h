@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/cosserat/solver/rod_rows.h"
+#include "engine/core/random.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "plugins/cosserat/solver/rod_rows.h"
 
 /// Random plants and random states of them, for property tests. Seeded.
 namespace pedicel::cosserat::cases {

@@ -1,5 +1,5 @@
 // Many plants: the same bits with any number of threads; states set from outside; what a step says.
-#include "pedicel/cosserat/solver/rod_system.h"
+#include "plugins/cosserat/solver/rod_system.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <numeric>
 #include <span>
 
-#include "analytic/rod_cases.h"
-#include "analytic/sphere_source.h"
-#include "pedicel/plant/reference_plants.h"
-#include "unit/cosserat/extension_cases.h"
-#include "unit/cosserat/random_plants.h"
+#include "plugins/plant/reference_plants.h"
+#include "tests/analytic/rod_cases.h"
+#include "tests/analytic/sphere_source.h"
+#include "tests/unit/cosserat/extension_cases.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

@@ -1,9 +1,9 @@
 // The rotation vector: exp and log are inverse, and the Jacobian is log's derivative.
-#include "pedicel/cosserat/model/rotation.h"
+#include "plugins/cosserat/model/rotation.h"
 
 #include <gtest/gtest.h>
 
-#include "unit/cosserat/random_plants.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

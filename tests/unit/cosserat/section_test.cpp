@@ -1,5 +1,5 @@
 // Section properties against closed forms and tables.
-#include "pedicel/cosserat/model/section.h"
+#include "plugins/cosserat/model/section.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "pedicel/cosserat/solver/standing.h"
-#include "unit/cosserat/random_plants.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "tests/unit/cosserat/random_plants.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

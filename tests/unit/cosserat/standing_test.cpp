@@ -1,12 +1,12 @@
 // Standing as drawn: the drawn shape carries no net force on any element, and where supports and
 // welds leave a choice, their loads are those of beam theory.
-#include "pedicel/cosserat/solver/standing.h"
+#include "plugins/cosserat/solver/standing.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "unit/cosserat/random_plants.h"
-#include "unit/cosserat/step_potential.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "tests/unit/cosserat/random_plants.h"
+#include "tests/unit/cosserat/step_potential.h"
 
 namespace pedicel::cosserat::cases {
 namespace {

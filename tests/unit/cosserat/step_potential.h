@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "pedicel/cosserat/solver/attachments.h"
-#include "pedicel/cosserat/solver/block_system.h"
-#include "pedicel/cosserat/solver/rod_rows.h"
+#include "plugins/cosserat/solver/attachments.h"
+#include "plugins/cosserat/solver/block_system.h"
+#include "plugins/cosserat/solver/rod_rows.h"
 
 namespace pedicel::cosserat::cases {
 

@@ -1,7 +1,7 @@
 // Leaf blades against things: where a triangle is nearest, what its corners get of that, and that a
 // ball that veins let through pushes the leaf. BladeSource.HowFarABallSinks makes the table of the
 // manual's page Measurements.
-#include "pedicel/coupling/blade_source.h"
+#include "plugins/coupling/blade_source.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@
 #include <cstdio>
 #include <limits>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/coupling/collider_source.h"
-#include "pedicel/geometry/shapes.h"
-#include "pedicel/plant/leaf_template.h"
-#include "places.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
+#include "engine/geometry/shapes.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/coupling/collider_source.h"
+#include "plugins/plant/leaf_template.h"
+#include "tests/support/places.h"
 
 namespace pedicel::coupling {
 namespace {
@@ -32,8 +32,7 @@ struct GrownLeaf {
 GrownLeaf level_leaf(const std::string& name, double size) {
   Diagnostics diagnostics;
   const auto leaf = plant::read_leaf_template(
-      std::filesystem::path(PEDICEL_SOURCE_DIR) / "assets/leaves" / (name + ".leaf.yaml"),
-      diagnostics);
+      pedicel::test::source_folder() / "assets/leaves" / (name + ".leaf.yaml"), diagnostics);
   if (!leaf) throw UsageError(diagnostics.text());
   GrownLeaf grown;
   grown.model.organs = {"p/leaf"};

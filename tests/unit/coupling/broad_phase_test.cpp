@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <memory>
 
-#include "pedicel/core/random.h"
-#include "pedicel/core/state_hash.h"
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/coupling/collider_source.h"
-#include "pedicel/coupling/element_chunks.h"
-#include "pedicel/geometry/shapes.h"
-#include "pedicel/plant/reference_plants.h"
-#include "support/allocation_counter.h"
+#include "engine/core/random.h"
+#include "engine/core/state_hash.h"
+#include "engine/geometry/shapes.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/coupling/collider_source.h"
+#include "plugins/coupling/element_chunks.h"
+#include "plugins/plant/reference_plants.h"
+#include "tests/support/allocation_counter.h"
 
 namespace pedicel::coupling {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/coupling/collider_source.h"
+#include "plugins/coupling/collider_source.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/geometry/shapes.h"
-#include "support/allocation_counter.h"
-#include "unit/coupling/plants.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
+#include "engine/geometry/shapes.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/unit/coupling/plants.h"
 
 namespace pedicel::coupling {
 namespace {

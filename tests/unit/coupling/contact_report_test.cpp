@@ -1,12 +1,12 @@
-#include "pedicel/coupling/contact_report.h"
+#include "plugins/coupling/contact_report.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/geometry/shapes.h"
-#include "support/allocation_counter.h"
-#include "unit/coupling/plants.h"
+#include "engine/core/random.h"
+#include "engine/geometry/shapes.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/unit/coupling/plants.h"
 
 namespace pedicel::coupling {
 namespace {

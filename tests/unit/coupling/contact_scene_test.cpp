@@ -4,13 +4,13 @@
 #include <cmath>
 #include <memory>
 
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/coupling/collider_source.h"
-#include "pedicel/coupling/contact_report.h"
-#include "pedicel/geometry/shapes.h"
-#include "support/allocation_counter.h"
-#include "unit/coupling/plants.h"
+#include "engine/geometry/shapes.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/coupling/collider_source.h"
+#include "plugins/coupling/contact_report.h"
+#include "tests/support/allocation_counter.h"
+#include "tests/unit/coupling/plants.h"
 
 namespace pedicel::coupling {
 namespace {

@@ -1,12 +1,12 @@
-#include "pedicel/coupling/nearest_place.h"
+#include "plugins/coupling/nearest_place.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "pedicel/core/random.h"
-#include "pedicel/geometry/shapes.h"
+#include "engine/core/random.h"
+#include "engine/geometry/shapes.h"
 
 namespace pedicel::coupling {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pedicel/cosserat/model/rod_model.h"
+#include "plugins/cosserat/model/rod_model.h"
 
 namespace pedicel::coupling {
 

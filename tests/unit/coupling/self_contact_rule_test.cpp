@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "pedicel/cosserat/contact/self_contact.h"
-#include "pedicel/cosserat/solver/rod_system.h"
+#include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/solver/rod_system.h"
 
 namespace pedicel::cosserat {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/cosserat/contact/self_contact.h"
+#include "plugins/cosserat/contact/self_contact.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,12 +9,12 @@
 #include <set>
 #include <tuple>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/lanes/lane_kernels.h"
-#include "pedicel/cosserat/model/rotation.h"
-#include "pedicel/cosserat/solver/contact_terms.h"
-#include "support/allocation_counter.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
+#include "plugins/cosserat/lanes/lane_kernels.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "plugins/cosserat/solver/contact_terms.h"
+#include "tests/support/allocation_counter.h"
 
 namespace pedicel::cosserat {
 namespace {

@@ -22,11 +22,11 @@
 #include <memory>
 #include <vector>
 
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/solver/rod_system.h"
-#include "pedicel/coupling/collider_source.h"
-#include "pedicel/geometry/shapes.h"
-#include "unit/coupling/plants.h"
+#include "engine/core/random.h"
+#include "engine/geometry/shapes.h"
+#include "plugins/cosserat/solver/rod_system.h"
+#include "plugins/coupling/collider_source.h"
+#include "tests/unit/coupling/plants.h"
 
 namespace pedicel::coupling {
 namespace {

@@ -1,14 +1,14 @@
 // What is wrong with data before any physics: made data with known faults, which must all be found,
 // and nothing else.
-#include "pedicel/discrepancy/admission/admission.h"
+#include "plugins/discrepancy/admission/admission.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "unit/discrepancy/made_data.h"
+#include "engine/core/random.h"
+#include "tests/unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
 namespace {

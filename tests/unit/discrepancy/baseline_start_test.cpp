@@ -1,10 +1,10 @@
 // Which parameters data see, on a weightless beam whose tip is pulled aside: it stands at
 // d = F L^3 / 3EI, and with a modulus a tenth larger at d / 1.1.
-#include "pedicel/discrepancy/fit/baseline_start.h"
+#include "plugins/discrepancy/fit/baseline_start.h"
 
 #include <gtest/gtest.h>
 
-#include "unit/discrepancy/beam_experiment.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "pedicel/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 /// A straight round stem that stands on its clamp, unloaded, with markers along it.
 namespace pedicel::discrepancy::testing {

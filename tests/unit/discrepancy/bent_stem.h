@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "beam_experiment.h"
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/data/places.h"
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/force/missing_force.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/data/places.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/force/missing_force.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy::testing {
 

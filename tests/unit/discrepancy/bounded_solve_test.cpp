@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/fit/bounded_solve.h"
+#include "plugins/discrepancy/fit/bounded_solve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Refits of a handful of causes on a beam whose data were simulated with one of them: it must be
 // first, with its size, and the alarm must be about it. Without it there must be no alarm.
-#include "pedicel/discrepancy/select/candidates.h"
+#include "plugins/discrepancy/select/candidates.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/select/candidate_starts.h"
-#include "pedicel/discrepancy/select/evidence.h"
-#include "pedicel/discrepancy/select/needed_parameters.h"
-#include "pedicel/discrepancy/test/score_test.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/select/candidate_starts.h"
+#include "plugins/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/select/needed_parameters.h"
+#include "plugins/discrepancy/test/score_test.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

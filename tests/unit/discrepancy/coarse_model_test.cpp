@@ -1,13 +1,13 @@
 // The coarse model of searches: it must agree with the fine one where it is anchored, follow it
 // near by, and give way to the fine one where it would be wrong by much of the noise.
-#include "pedicel/discrepancy/fit/coarse_model.h"
+#include "plugins/discrepancy/fit/coarse_model.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "unit/discrepancy/released_beam.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "tests/unit/discrepancy/released_beam.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/simulate/noise.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/simulate/noise.h"
 
 namespace pedicel::discrepancy::testing {
 

@@ -1,6 +1,6 @@
 // What is concluded from fits and alarms that are written down: which causes are named, which are
 // competing models, and what is said of the rest.
-#include "pedicel/discrepancy/procedure/conclusion.h"
+#include "plugins/discrepancy/procedure/conclusion.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "pedicel/discrepancy/procedure/seen_ratios.h"
-#include "unit/discrepancy/made_diagnosis.h"
+#include "plugins/discrepancy/procedure/seen_ratios.h"
+#include "tests/unit/discrepancy/made_diagnosis.h"
 
 namespace pedicel::discrepancy {
 namespace {

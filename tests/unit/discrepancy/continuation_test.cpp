@@ -1,14 +1,14 @@
 // A mass that no model knows raises the density that is fitted; from there it must be found by
 // going back to the density that is believed.
-#include "pedicel/discrepancy/select/continuation.h"
+#include "plugins/discrepancy/select/continuation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "pedicel/core/random.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/random.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

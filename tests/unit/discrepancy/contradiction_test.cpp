@@ -1,14 +1,14 @@
 // Mistakes of a day in a laboratory: each must be told with its file and its likely cause, and what
 // known effects explain must not be.
-#include "pedicel/discrepancy/admission/contradiction.h"
+#include "plugins/discrepancy/admission/contradiction.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/discrepancy/admission/admission.h"
-#include "pedicel/io/yaml.h"
-#include "pedicel/plant/effect_reader.h"
-#include "unit/discrepancy/laboratory.h"
+#include "engine/io/yaml.h"
+#include "plugins/discrepancy/admission/admission.h"
+#include "plugins/plant/effect_reader.h"
+#include "tests/unit/discrepancy/laboratory.h"
 
 namespace pedicel::discrepancy {
 namespace {

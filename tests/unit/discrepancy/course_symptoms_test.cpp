@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "made_data.h"
-#include "pedicel/discrepancy/select/symptom_numbers.h"
+#include "plugins/discrepancy/select/symptom_numbers.h"
+#include "tests/unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
 namespace {

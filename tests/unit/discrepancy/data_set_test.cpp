@@ -1,5 +1,5 @@
 // Residuals in units of the noise, of an experiment whose predictions are written down.
-#include "pedicel/discrepancy/simulate/data_set.h"
+#include "plugins/discrepancy/simulate/data_set.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "unit/discrepancy/coloured_noise.h"
-#include "unit/discrepancy/made_data.h"
+#include "tests/unit/discrepancy/coloured_noise.h"
+#include "tests/unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,13 +1,13 @@
 // A change that is in the data, against the same change in the wrong places.
-#include "pedicel/discrepancy/select/decoys.h"
+#include "plugins/discrepancy/select/decoys.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
-#include "unit/discrepancy/made_data.h"
+#include "plugins/discrepancy/settings/diagnosis_settings.h"
+#include "tests/unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
 namespace {

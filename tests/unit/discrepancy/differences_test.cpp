@@ -1,11 +1,11 @@
 // Derivatives by differences of a prediction in closed form.
-#include "pedicel/discrepancy/simulate/differences.h"
+#include "plugins/discrepancy/simulate/differences.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/fit/causes.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/procedure/diagnosis.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/procedure/diagnosis.h"
+#include "plugins/discrepancy/simulate/simulator.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,11 +1,11 @@
 // What numbers cost, and which causes turned into others, from fits that are written down.
-#include "pedicel/discrepancy/select/evidence.h"
+#include "plugins/discrepancy/select/evidence.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/effects/registry/effect_definition.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,5 +1,5 @@
 // Tables of measured data as instruments and spreadsheets write them.
-#include "pedicel/discrepancy/data/experiment_tables.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,13 +1,13 @@
-#include "pedicel/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/simulate/scales.h"
-#include "pedicel/discrepancy/simulate/variant_plant.h"
-#include "pedicel/io/asset_folder.h"
-#include "support/temporary_folder.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/io/asset_folder.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/simulate/scales.h"
+#include "plugins/discrepancy/simulate/variant_plant.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -4,13 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pedicel/discrepancy/data/experiment.h"
-#include "pedicel/discrepancy/data/experiment_keys.h"
-#include "pedicel/discrepancy/select/verdict.h"
-#include "pedicel/discrepancy/select/verdict_keys.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/described_keys.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/experiment_keys.h"
+#include "plugins/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/select/verdict_keys.h"
+#include "tests/support/described_keys.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::discrepancy {
 namespace {

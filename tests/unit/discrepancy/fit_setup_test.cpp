@@ -1,13 +1,13 @@
 // Mesh, step and corrections that an experiment is fitted with: as coarse as its noise allows, and
 // right about the model that they are asked for.
-#include "pedicel/discrepancy/fit/fit_setup.h"
+#include "plugins/discrepancy/fit/fit_setup.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "unit/discrepancy/released_beam.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "tests/unit/discrepancy/released_beam.h"
 
 namespace pedicel::discrepancy {
 namespace {

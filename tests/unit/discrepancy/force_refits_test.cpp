@@ -1,5 +1,5 @@
 // Laws that the linear response found, refitted by the simulator.
-#include "pedicel/discrepancy/force/force_refits.h"
+#include "plugins/discrepancy/force/force_refits.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bent_stem.h"
-#include "pedicel/discrepancy/simulate/force_term.h"
+#include "plugins/discrepancy/simulate/force_term.h"
+#include "tests/unit/discrepancy/bent_stem.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,10 +1,10 @@
 // Where trials rest and how fast they swing, measured over foretold, where both are known.
-#include "pedicel/discrepancy/test/foretold.h"
+#include "plugins/discrepancy/test/foretold.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "made_data.h"
+#include "tests/unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,5 +1,5 @@
 // Models on held-out trials, as linear predictions whose answers are known.
-#include "pedicel/discrepancy/test/held_out.h"
+#include "plugins/discrepancy/test/held_out.h"
 
 #include <gtest/gtest.h>
 

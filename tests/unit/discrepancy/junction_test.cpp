@@ -3,8 +3,8 @@
 // adds l'/2EI: a share l'/l of that, the same at all junctions.
 #include <gtest/gtest.h>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <functional>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/admission/nominal_plant.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/admission/nominal_plant.h"
+#include "plugins/discrepancy/simulate/simulator.h"
 
 /// A day in a laboratory: a stem with two branches, nine markers; let go along x and y, weights
 /// hung on from the side, and pushed with the force measured. Simulated, with noise on top; nothing

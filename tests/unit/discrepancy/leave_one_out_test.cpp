@@ -1,12 +1,12 @@
 // Leaving out a trial of a linear model is the least squares fit to the others, solved here anew.
-#include "pedicel/discrepancy/test/leave_one_out.h"
+#include "plugins/discrepancy/test/leave_one_out.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "pedicel/core/random.h"
-#include "pedicel/effects/registry/effect_definition.h"
+#include "engine/core/random.h"
+#include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/test/symptoms.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/test/symptoms.h"
 
 namespace pedicel::discrepancy {
 

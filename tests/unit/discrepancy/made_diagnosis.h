@@ -1,7 +1,7 @@
 #pragma once
 
-#include "made_data.h"
-#include "pedicel/discrepancy/report/report.h"
+#include "plugins/discrepancy/report/report.h"
+#include "tests/unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/force/missing_force.h"
+#include "plugins/discrepancy/force/missing_force.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "bent_stem.h"
-#include "pedicel/discrepancy/simulate/force_term.h"
+#include "plugins/discrepancy/simulate/force_term.h"
+#include "tests/unit/discrepancy/bent_stem.h"
 
 namespace pedicel::discrepancy {
 

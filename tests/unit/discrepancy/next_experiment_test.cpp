@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/procedure/next_experiment.h"
+#include "plugins/discrepancy/procedure/next_experiment.h"
 
 #include <gtest/gtest.h>
 
-#include "made_diagnosis.h"
-#include "pedicel/discrepancy/procedure/trial_designs.h"
+#include "plugins/discrepancy/procedure/trial_designs.h"
+#include "tests/unit/discrepancy/made_diagnosis.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,14 +1,14 @@
 // Noise models. Exact covariances must give the weights that made them (Yule-Walker: of a process
 // x_t = a x_(t-1) + b x_(t-2) + e the correlations are r1 = a / (1 - b) and r_k = a r_(k-1) +
 // b r_(k-2)); drawn series must give them within the scatter of the estimate.
-#include "pedicel/discrepancy/simulate/noise.h"
+#include "plugins/discrepancy/simulate/noise.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "unit/discrepancy/coloured_noise.h"
+#include "tests/unit/discrepancy/coloured_noise.h"
 
 namespace pedicel::discrepancy {
 namespace {

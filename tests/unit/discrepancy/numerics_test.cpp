@@ -1,13 +1,13 @@
 // Our own numerical error on a released beam. Step and mesh err by the second power of their size:
 // halving the step must quarter what half a step more would change, and what Richardson's
 // correction leaves must be far below what it corrects.
-#include "pedicel/discrepancy/fit/numerics.h"
+#include "plugins/discrepancy/fit/numerics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "unit/discrepancy/beam_experiment.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

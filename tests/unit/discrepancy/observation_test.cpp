@@ -1,10 +1,10 @@
 // From a motion that is known to what the instruments report.
-#include "pedicel/discrepancy/simulate/observation.h"
+#include "plugins/discrepancy/simulate/observation.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/cosserat/model/rotation.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "plugins/cosserat/model/rotation.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

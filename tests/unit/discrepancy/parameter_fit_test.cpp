@@ -1,16 +1,16 @@
 // Data are made with known parameters, another step and another mesh, and the parameters must come
 // back within their intervals.
-#include "pedicel/discrepancy/fit/parameter_fit.h"
+#include "plugins/discrepancy/fit/parameter_fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/fit/parameter_request.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/fit/parameter_request.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

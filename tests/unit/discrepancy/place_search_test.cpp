@@ -1,15 +1,15 @@
 // A place lies in a narrow valley: a fit that stopped elsewhere must be led to it.
-#include "pedicel/discrepancy/select/place_search.h"
+#include "plugins/discrepancy/select/place_search.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "pedicel/discrepancy/fit/causes.h"
-#include "pedicel/discrepancy/fit/profile.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "plugins/discrepancy/fit/causes.h"
+#include "plugins/discrepancy/fit/profile.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

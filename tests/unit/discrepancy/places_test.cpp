@@ -1,8 +1,8 @@
-#include "pedicel/discrepancy/data/places.h"
+#include "plugins/discrepancy/data/places.h"
 
 #include <gtest/gtest.h>
 
-#include "made_data.h"
+#include "tests/unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,14 +1,14 @@
 // Intervals by profile likelihood. Where a prediction is linear in its parameters, the deviance of
 // one of them with the others refitted is exactly ((u - best) / s)^2 with s the standard error of
 // least squares, so that the interval ends at best +- sqrt(3.841) s: Wald's interval.
-#include "pedicel/discrepancy/fit/profile.h"
+#include "plugins/discrepancy/fit/profile.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/random.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

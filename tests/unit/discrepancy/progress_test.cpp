@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "pedicel/discrepancy/procedure/diagnosis_log.h"
+#include "plugins/discrepancy/procedure/diagnosis_log.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,12 +1,12 @@
-#include "pedicel/discrepancy/test/projection.h"
+#include "plugins/discrepancy/test/projection.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/test/oscillation.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/test/oscillation.h"
 
 namespace pedicel::discrepancy {
 namespace {

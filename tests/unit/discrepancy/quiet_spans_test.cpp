@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/data/quiet_spans.h"
+#include "plugins/discrepancy/data/quiet_spans.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "pedicel/core/random.h"
+#include "engine/core/random.h"
 
 namespace pedicel::discrepancy {
 namespace {

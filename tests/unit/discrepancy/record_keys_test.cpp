@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "pedicel/discrepancy/data/experiment_tables.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/simulate/simulator.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy::testing {
 

@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/report/report.h"
+#include "plugins/discrepancy/report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,12 +6,12 @@
 #include <cctype>
 #include <regex>
 
-#include "made_diagnosis.h"
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/report/plant_sketch.h"
-#include "pedicel/discrepancy/report/report_words.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/report/plant_sketch.h"
+#include "plugins/discrepancy/report/report_words.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/discrepancy/made_diagnosis.h"
 
 namespace pedicel::discrepancy {
 namespace {

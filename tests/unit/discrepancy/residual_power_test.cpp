@@ -1,12 +1,12 @@
 // What is left of the plant's own motion: seen along its shapes, not across them, whatever the
 // colour of the noise.
-#include "pedicel/discrepancy/test/residual_power.h"
+#include "plugins/discrepancy/test/residual_power.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "made_data.h"
+#include "tests/unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
 namespace {

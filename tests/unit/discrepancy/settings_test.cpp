@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/settings/scene_settings.h"
+#include "engine/core/check.h"
+#include "plugins/discrepancy/settings/scene_settings.h"
 
 namespace pedicel::discrepancy {
 namespace {

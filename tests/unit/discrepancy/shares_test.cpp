@@ -1,14 +1,14 @@
 // How much of the misfit each cause explains, on a beam whose data were simulated with known
 // effects: shares and changes have plain values there.
-#include "pedicel/discrepancy/procedure/shares.h"
+#include "plugins/discrepancy/procedure/shares.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/random.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,13 +1,13 @@
 // Predictions against beam theory (Euler-Bernoulli, small deflections; shear adds less than 1e-3 at
 // this slenderness) and against each other.
-#include "pedicel/discrepancy/simulate/simulator.h"
+#include "plugins/discrepancy/simulate/simulator.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/check.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

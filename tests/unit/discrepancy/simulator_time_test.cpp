@@ -1,9 +1,9 @@
 // Frequencies after a release, and the order of convergence in the time step where forces jump.
 #include <gtest/gtest.h>
 
-#include "pedicel/core/ring_down.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/ring_down.h"
+#include "plugins/discrepancy/simulate/simulator.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

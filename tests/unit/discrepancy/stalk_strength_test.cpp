@@ -1,13 +1,13 @@
 // Laws of breaking from when fruits came off, on loads that are known: ramps of force, moment and
 // torsion in fixed proportions, one for each stalk.
-#include "pedicel/discrepancy/select/stalk_strength.h"
+#include "plugins/discrepancy/select/stalk_strength.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/core/random.h"
+#include "engine/core/random.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,13 +1,13 @@
 // Directed statistics on residuals that are drawn: standard normal where nothing but noise is left,
 // and no alarm; what is laid along a direction must raise one.
-#include "pedicel/discrepancy/test/statistics.h"
+#include "plugins/discrepancy/test/statistics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/core/random.h"
-#include "unit/discrepancy/made_diagnosis.h"
+#include "engine/core/random.h"
+#include "tests/unit/discrepancy/made_diagnosis.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,6 +1,6 @@
 // Symptoms lead a search: which causes come first, and with which sizes they start. What no symptom
 // speaks for is neither moved nor left out.
-#include "pedicel/discrepancy/select/symptom_starts.h"
+#include "plugins/discrepancy/select/symptom_starts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 #include <map>
 #include <numbers>
 
-#include "pedicel/discrepancy/select/candidate_starts.h"
-#include "pedicel/discrepancy/select/candidates.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "plugins/discrepancy/select/candidate_starts.h"
+#include "plugins/discrepancy/select/candidates.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/test/symptoms.h"
+#include "plugins/discrepancy/test/symptoms.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <numbers>
 
-#include "made_data.h"
+#include "tests/unit/discrepancy/made_data.h"
 
 namespace pedicel::discrepancy {
 namespace {

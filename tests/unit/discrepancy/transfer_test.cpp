@@ -1,6 +1,6 @@
 // Effects of one plant carried over to another one, longer and thicker, whose data were simulated
 // with them or without.
-#include "pedicel/discrepancy/procedure/transfer.h"
+#include "plugins/discrepancy/procedure/transfer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/simulate/simulator.h"
-#include "unit/discrepancy/beam_experiment.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/simulate/simulator.h"
+#include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

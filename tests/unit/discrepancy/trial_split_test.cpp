@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/data/trial_split.h"
+#include "plugins/discrepancy/data/trial_split.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "pedicel/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,6 +1,6 @@
 // verdict.json against the manual's page Verdict: its fields, null where there is no value, and the
 // exit codes.
-#include "pedicel/discrepancy/select/verdict.h"
+#include "plugins/discrepancy/select/verdict.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,10 +4,10 @@
 #include <fstream>
 #include <string>
 
-#include "pedicel/discrepancy/scene/scene_effects.h"
-#include "pedicel/discrepancy/scene/scene_simulator.h"
-#include "pedicel/io/yaml.h"
-#include "support/temporary_folder.h"
+#include "engine/io/yaml.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene_predict/scene_simulator.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,7 +1,7 @@
 // What data of a robot at a plant could not show.
 #include <gtest/gtest.h>
 
-#include "diagnosed_scene.h"
+#include "tests/unit/discrepancy_scene/diagnosed_scene.h"
 
 namespace pedicel::discrepancy {
 namespace {

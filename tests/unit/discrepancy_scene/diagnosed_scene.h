@@ -5,9 +5,9 @@
 #include <atomic>
 #include <map>
 
-#include "arm_at_stem.h"
-#include "pedicel/discrepancy/scene/scene_observe.h"
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "plugins/discrepancy/scene_predict/scene_observe.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/scene/giving_joints.h"
+#include "plugins/discrepancy/scene/giving_joints.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "arm_at_stem.h"
-#include "pedicel/discrepancy/scene/scene_data.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::discrepancy {
 namespace {

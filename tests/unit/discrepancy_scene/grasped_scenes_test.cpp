@@ -1,8 +1,8 @@
 // Arms that follow commands, and fruits that are grasped and come off.
 #include <gtest/gtest.h>
 
-#include "diagnosed_scene.h"
-#include "pedicel/discrepancy/scene_procedure/robot_alone.h"
+#include "plugins/discrepancy/scene_procedure/robot_alone.h"
+#include "tests/unit/discrepancy_scene/diagnosed_scene.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,9 +1,9 @@
-#include "pedicel/discrepancy/scene_procedure/scene_decoys.h"
+#include "plugins/discrepancy/scene_procedure/scene_decoys.h"
 
 #include <gtest/gtest.h>
 
-#include "arm_at_stem.h"
-#include "pedicel/discrepancy/settings/diagnosis_settings.h"
+#include "plugins/discrepancy/settings/diagnosis_settings.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "arm_at_stem.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 
 #include <gmock/gmock.h>
 
-#include "diagnosed_scene.h"
-#include "pedicel/discrepancy/scene/run_effects.h"
-#include "pedicel/discrepancy/scene_procedure/extended_scene.h"
-#include "pedicel/world/scene_reader.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/discrepancy/scene/run_effects.h"
+#include "plugins/discrepancy/scene_procedure/extended_scene.h"
+#include "tests/unit/discrepancy_scene/diagnosed_scene.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "arm_at_stem.h"
-#include "pedicel/cosserat/solver/standing.h"
-#include "pedicel/discrepancy/scene/camera.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "plugins/discrepancy/scene/camera.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::discrepancy {
 namespace {

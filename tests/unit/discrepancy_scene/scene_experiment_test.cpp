@@ -1,14 +1,14 @@
-#include "pedicel/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene/scene_experiment.h"
 
 #include <gmock/gmock.h>
 
-#include "arm_at_stem.h"
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/scene/scene_data.h"
-#include "pedicel/discrepancy/scene/scene_experiment_keys.h"
-#include "pedicel/discrepancy/scene/scene_observe.h"
-#include "pedicel/io/text_file.h"
-#include "support/described_keys.h"
+#include "engine/core/check.h"
+#include "engine/io/text_file.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
+#include "plugins/discrepancy/scene/scene_experiment_keys.h"
+#include "plugins/discrepancy/scene_predict/scene_observe.h"
+#include "tests/support/described_keys.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::discrepancy {
 namespace {

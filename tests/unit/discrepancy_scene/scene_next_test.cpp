@@ -1,13 +1,13 @@
-#include "pedicel/discrepancy/scene_next/scene_next.h"
+#include "plugins/discrepancy/scene_next/scene_next.h"
 
 #include <gmock/gmock.h>
 
-#include "diagnosed_scene.h"
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/report/scene_next_report.h"
-#include "pedicel/discrepancy/scene/more_scene_trials.h"
-#include "pedicel/discrepancy/scene_next/arm_way.h"
-#include "pedicel/discrepancy/scene_next/motion_designs.h"
+#include "engine/core/check.h"
+#include "plugins/discrepancy/report/scene_next_report.h"
+#include "plugins/discrepancy/scene/more_scene_trials.h"
+#include "plugins/discrepancy/scene_next/arm_way.h"
+#include "plugins/discrepancy/scene_next/motion_designs.h"
+#include "tests/unit/discrepancy_scene/diagnosed_scene.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,11 +1,11 @@
-#include "pedicel/discrepancy/scene_fit/scene_search.h"
+#include "plugins/discrepancy/scene_fit/scene_search.h"
 
 #include <gmock/gmock.h>
 
 #include <functional>
 
-#include "arm_at_stem.h"
-#include "pedicel/discrepancy/scene/scene_observe.h"
+#include "plugins/discrepancy/scene_predict/scene_observe.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,10 +1,10 @@
-#include "pedicel/discrepancy/scene/smooth_readings.h"
+#include "plugins/discrepancy/scene/smooth_readings.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/core/random.h"
+#include "engine/core/random.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <set>
 
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/effects/registry/effect_definition.h"
-#include "pedicel/plant/plant_builder.h"
-#include "support/stem_plants.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/effects/registry/effect_definition.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/support/stem_plants.h"
 
 namespace pedicel::effects {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/geometry/cache_folder.h"
+#include "engine/geometry/cache_folder.h"
 
 #include <gmock/gmock.h>
 
@@ -6,9 +6,9 @@
 #include <chrono>
 #include <thread>
 
-#include "pedicel/geometry/grid_cache.h"
-#include "pedicel/geometry/primitives_mesh.h"
-#include "support.h"
+#include "engine/geometry/grid_cache.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 namespace {

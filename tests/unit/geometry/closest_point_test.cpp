@@ -1,10 +1,10 @@
-#include "pedicel/geometry/closest_point.h"
+#include "engine/geometry/closest_point.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "support.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 namespace {

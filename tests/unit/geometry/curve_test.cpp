@@ -1,10 +1,10 @@
-#include "pedicel/geometry/curve.h"
+#include "engine/geometry/curve.h"
 
 #include <gmock/gmock.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/geometry/curve_distance.h"
-#include "support.h"
+#include "engine/core/check.h"
+#include "engine/geometry/curve_distance.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 namespace {

@@ -1,11 +1,11 @@
-#include "pedicel/geometry/grid_cache.h"
+#include "engine/geometry/grid_cache.h"
 
 #include <gmock/gmock.h>
 
 #include <sstream>
 
-#include "pedicel/geometry/primitives_mesh.h"
-#include "support.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 namespace {

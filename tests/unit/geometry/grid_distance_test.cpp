@@ -1,11 +1,11 @@
-#include "pedicel/geometry/grid_distance.h"
+#include "engine/geometry/grid_distance.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/thread_pool.h"
-#include "pedicel/geometry/primitives_mesh.h"
-#include "support.h"
+#include "engine/core/check.h"
+#include "engine/core/thread_pool.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 namespace {

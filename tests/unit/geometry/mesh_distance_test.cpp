@@ -1,11 +1,11 @@
-#include "pedicel/geometry/mesh_distance.h"
+#include "engine/geometry/mesh_distance.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/geometry/primitives_mesh.h"
-#include "pedicel/geometry/shapes.h"
-#include "sdf_property.h"
+#include "engine/core/check.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "engine/geometry/shapes.h"
+#include "tests/unit/geometry/sdf_property.h"
 
 namespace pedicel::geometry {
 namespace {

@@ -1,12 +1,12 @@
-#include "pedicel/geometry/mesh_file.h"
+#include "engine/geometry/mesh_file.h"
 
 #include <gmock/gmock.h>
 
 #include <cstdint>
 #include <cstring>
 
-#include "pedicel/core/diagnostics.h"
-#include "support.h"
+#include "engine/core/diagnostics.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 namespace {

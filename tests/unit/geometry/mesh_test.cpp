@@ -1,15 +1,15 @@
-#include "pedicel/geometry/mesh.h"
+#include "engine/geometry/mesh.h"
 
 #include <gmock/gmock.h>
 
 #include <cstring>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/geometry/aabb.h"
-#include "pedicel/geometry/mass_properties.h"
-#include "pedicel/geometry/mesh_topology.h"
-#include "support.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
+#include "engine/geometry/aabb.h"
+#include "engine/geometry/mass_properties.h"
+#include "engine/geometry/mesh_topology.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 namespace {

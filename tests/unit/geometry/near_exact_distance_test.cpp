@@ -1,10 +1,10 @@
-#include "pedicel/geometry/near_exact_distance.h"
+#include "engine/geometry/near_exact_distance.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/geometry/primitives_mesh.h"
-#include "pedicel/geometry/shapes.h"
-#include "support.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "engine/geometry/shapes.h"
+#include "tests/unit/geometry/support.h"
 
 // A box of 2 m: its exact distance is known in closed form.
 namespace pedicel::geometry {

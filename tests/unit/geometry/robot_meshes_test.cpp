@@ -2,10 +2,10 @@
 // watertight. They must load, give a usable distance, and mass properties.
 #include <gtest/gtest.h>
 
-#include "pedicel/geometry/grid_distance.h"
-#include "pedicel/geometry/mass_properties.h"
-#include "places.h"
-#include "support.h"
+#include "engine/geometry/grid_distance.h"
+#include "engine/geometry/mass_properties.h"
+#include "tests/support/places.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 namespace {
@@ -15,10 +15,10 @@ std::vector<std::filesystem::path> meshes() {
   std::vector<std::filesystem::path> found;
   for (const char* part :
        {"base", "shoulder", "upper_arm", "elbow", "forearm", "wrist", "flange", "gripper"})
-    found.push_back(std::filesystem::path(PEDICEL_SOURCE_DIR) / "assets/robots/stalk6/meshes" /
+    found.push_back(pedicel::test::source_folder() / "assets/robots/stalk6/meshes" /
                     (std::string(part) + "_grey.obj"));
   const auto makers =
-      std::filesystem::path(PEDICEL_SHARED_DIR) / "data/lite6/xarm_description/meshes/lite6/visual";
+      pedicel::test::shared_folder() / "data/lite6/xarm_description/meshes/lite6/visual";
   for (const char* part : {"base.stl", "link1.stl", "link2.stl", "link3.stl", "link4.stl",
                            "link5.stl", "link6.stl", "gripper_lite.stl"})
     if (std::filesystem::exists(makers / part)) found.push_back(makers / part);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pedicel/geometry/signed_distance.h"
-#include "support.h"
+#include "engine/geometry/signed_distance.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 

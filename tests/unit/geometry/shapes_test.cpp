@@ -1,9 +1,9 @@
-#include "pedicel/geometry/shapes.h"
+#include "engine/geometry/shapes.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "sdf_property.h"
+#include "engine/core/check.h"
+#include "tests/unit/geometry/sdf_property.h"
 
 namespace pedicel::geometry {
 namespace {

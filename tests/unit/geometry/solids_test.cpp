@@ -1,12 +1,12 @@
 // Closed meshes of known solids: their topology, volume and inertia.
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/geometry/aabb.h"
-#include "pedicel/geometry/mass_properties.h"
-#include "pedicel/geometry/mesh_topology.h"
-#include "pedicel/geometry/primitives_mesh.h"
-#include "support.h"
+#include "engine/core/check.h"
+#include "engine/geometry/aabb.h"
+#include "engine/geometry/mass_properties.h"
+#include "engine/geometry/mesh_topology.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "tests/unit/geometry/support.h"
 
 namespace pedicel::geometry {
 namespace {

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <string>
 
-#include "pedicel/core/random.h"
-#include "pedicel/geometry/mesh.h"
+#include "engine/core/random.h"
+#include "engine/geometry/mesh.h"
 
 namespace pedicel::geometry {
 

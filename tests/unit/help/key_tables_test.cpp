@@ -1,12 +1,12 @@
 // The manual's tables of keys are those that the program writes.
-#include "pedicel/app/help/key_tables.h"
+#include "app/help/key_tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/key.h"
-#include "places.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/key.h"
+#include "tests/support/places.h"
 
 namespace pedicel::app {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string text_of(const std::string& page) {
-  return io::read_file(PEDICEL_SOURCE_DIR "/assets/manual/" + page + ".md");
+  return io::read_file(pedicel::test::source_folder() / ("assets/manual/" + page + ".md"));
 }
 
 TEST(KeyTables, PagesAreAsTheProgramWritesThem) {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/discrepancy/import/c3d_bytes.h"
+#include "engine/core/frames.h"
+#include "plugins/discrepancy/import/c3d_bytes.h"
 
 namespace pedicel::discrepancy::testing {
 

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "unit/import/c3d_file.h"
-#include "unit/import/reading_case.h"
+#include "tests/unit/import/c3d_file.h"
+#include "tests/unit/import/reading_case.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,12 +1,12 @@
 // Tables of testing machines and of force sensors.
-#include "pedicel/discrepancy/import/force_record.h"
+#include "plugins/discrepancy/import/force_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/discrepancy/import/world_frame.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/import/world_frame.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::discrepancy {
 namespace {

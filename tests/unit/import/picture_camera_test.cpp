@@ -1,12 +1,12 @@
 // A camera's pixels, back to the plane in which the points moved.
-#include "pedicel/discrepancy/import/picture_camera.h"
+#include "plugins/discrepancy/import/picture_camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::discrepancy {
 namespace {

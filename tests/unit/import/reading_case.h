@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "pedicel/core/frames.h"
-#include "pedicel/discrepancy/import/recording_reader.h"
+#include "engine/core/frames.h"
+#include "plugins/discrepancy/import/recording_reader.h"
 
 namespace pedicel::discrepancy::testing {
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "unit/import/reading_case.h"
+#include "tests/unit/import/reading_case.h"
 
 namespace pedicel::discrepancy {
 namespace {

@@ -1,13 +1,13 @@
 // From the file's unit, axes and frames to the world's metres and seconds, and what nobody states.
-#include "pedicel/discrepancy/import/world_tracks.h"
+#include "plugins/discrepancy/import/world_tracks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/import/world_frame.h"
+#include "engine/core/check.h"
+#include "plugins/discrepancy/import/world_frame.h"
 
 namespace pedicel::discrepancy {
 namespace {

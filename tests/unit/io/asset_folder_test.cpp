@@ -1,10 +1,10 @@
-#include "pedicel/io/asset_folder.h"
+#include "engine/io/asset_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

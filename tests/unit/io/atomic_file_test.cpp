@@ -1,4 +1,4 @@
-#include "pedicel/io/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 
 #include <fstream>
 
-#include "pedicel/core/diagnostics.h"
-#include "support/temporary_folder.h"
+#include "engine/core/diagnostics.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/io/csv.h"
+#include "engine/io/csv.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <fstream>
 #include <limits>
 
-#include "pedicel/core/random.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "engine/core/random.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <fstream>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/csv.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/csv.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/io/described_map.h"
+#include "engine/io/described_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "pedicel/io/described_object.h"
+#include "engine/io/described_object.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <regex>
 
-#include "pedicel/core/check.h"
-#include "pedicel/plots/svg_heat_map.h"
+#include "engine/core/check.h"
+#include "engine/plots/svg_heat_map.h"
 
 namespace pedicel::plots {
 namespace {

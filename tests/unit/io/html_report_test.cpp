@@ -1,12 +1,12 @@
-#include "pedicel/io/html_report.h"
+#include "engine/io/html_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/markup.h"
-#include "support/temporary_folder.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/markup.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

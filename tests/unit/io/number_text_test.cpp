@@ -1,5 +1,5 @@
 // Numbers as people and their programs write them.
-#include "pedicel/io/number_text.h"
+#include "engine/io/number_text.h"
 
 #include <gtest/gtest.h>
 

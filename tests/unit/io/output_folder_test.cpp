@@ -1,14 +1,14 @@
 // A run's folder: what the next run may take away, and what it may not.
-#include "pedicel/io/output_folder.h"
+#include "engine/io/output_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/output_check.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/output_check.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

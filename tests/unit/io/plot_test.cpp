@@ -5,10 +5,10 @@
 #include <limits>
 #include <regex>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
-#include "pedicel/plots/plot_scale.h"
-#include "pedicel/plots/svg_plot.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
+#include "engine/plots/plot_scale.h"
+#include "engine/plots/svg_plot.h"
 
 namespace pedicel::plots {
 namespace {

@@ -1,12 +1,12 @@
 // Tables as people have them: each is read as what it means, or refused with what was found.
-#include "pedicel/io/table_text.h"
+#include "engine/io/table_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/io/text_file.h"
+#include "engine/io/text_file.h"
 
 namespace pedicel::io {
 namespace {

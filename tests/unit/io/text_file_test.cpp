@@ -1,13 +1,13 @@
 // What a file is before its lines are read.
-#include "pedicel/io/text_file.h"
+#include "engine/io/text_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "pedicel/core/diagnostics.h"
-#include "support/temporary_folder.h"
+#include "engine/core/diagnostics.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

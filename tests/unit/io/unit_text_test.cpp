@@ -1,5 +1,5 @@
 // Units as headers have them.
-#include "pedicel/io/unit_text.h"
+#include "engine/io/unit_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/io/yaml.h"
+#include "engine/io/yaml.h"
 
 namespace pedicel::io {
 namespace {

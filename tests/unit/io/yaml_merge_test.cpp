@@ -1,5 +1,5 @@
 // What changed between two texts is done in a third that says the same in its own way.
-#include "pedicel/io/yaml_merge.h"
+#include "engine/io/yaml_merge.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cstring>
 #include <random>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/yaml_text.h"
-#include "pedicel/io/yaml_words.h"
+#include "engine/core/check.h"
+#include "engine/io/yaml_text.h"
+#include "engine/io/yaml_words.h"
 
 namespace pedicel::io {
 namespace {

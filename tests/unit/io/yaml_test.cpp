@@ -1,9 +1,9 @@
-#include "pedicel/io/yaml.h"
+#include "engine/io/yaml.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::io {
 namespace {

@@ -1,9 +1,9 @@
 // A file that is changed place by place keeps its comments and its layout.
-#include "pedicel/io/yaml_text.h"
+#include "engine/io/yaml_text.h"
 
 #include <gmock/gmock.h>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::io {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "pedicel/mcap/reader.h"
-#include "pedicel/render/offscreen.h"
-#include "pedicel/ros_messages/cdr.h"
-#include "unit/logs/logged_run.h"
+#include "engine/mcap/reader.h"
+#include "engine/render/offscreen.h"
+#include "engine/ros_messages/cdr.h"
+#include "tests/unit/logs/logged_run.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,9 +1,9 @@
 // Logs of scripted runs as measured data: what was not hidden is not found, what was is named.
 #include <gtest/gtest.h>
 
-#include "pedicel/app/verbs/import_log.h"
-#include "pedicel/discrepancy/scene_procedure/scene_diagnosis.h"
-#include "unit/logs/logged_run.h"
+#include "app/verbs/import_log.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
+#include "tests/unit/logs/logged_run.h"
 
 namespace pedicel::app {
 namespace {

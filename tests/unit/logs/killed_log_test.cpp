@@ -1,6 +1,6 @@
 // A program that is killed leaves a log that can be read.
-#include "pedicel/discrepancy/log_import/log_contents.h"
-#include "unit/app/program_case.h"
+#include "plugins/discrepancy/log_import/log_contents.h"
+#include "tests/unit/app/program_case.h"
 
 namespace pedicel {
 namespace {

@@ -1,18 +1,18 @@
 // A log as pictures, without its scene.
-#include "pedicel/app/playback/log_film.h"
+#include "app/playback/log_film.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/app/playback/drawn_markers.h"
-#include "pedicel/app/playback/play_off_screen.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/mcap/writer.h"
-#include "pedicel/render/offscreen.h"
-#include "pedicel/ros_messages/cdr.h"
-#include "unit/logs/logged_run.h"
+#include "app/playback/drawn_markers.h"
+#include "app/playback/play_off_screen.h"
+#include "engine/core/diagnostics.h"
+#include "engine/mcap/writer.h"
+#include "engine/render/offscreen.h"
+#include "engine/ros_messages/cdr.h"
+#include "tests/unit/logs/logged_run.h"
 
 namespace pedicel::app {
 namespace {

@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/app/verbs/import_log.h"
-#include "pedicel/core/check.h"
-#include "pedicel/discrepancy/scene/scene_data.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/mcap/writer.h"
-#include "pedicel/ros_messages/cdr.h"
-#include "unit/logs/logged_run.h"
+#include "app/verbs/import_log.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/mcap/writer.h"
+#include "engine/ros_messages/cdr.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
+#include "tests/unit/logs/logged_run.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,5 +1,5 @@
 // The words with which a map is refused.
-#include "pedicel/discrepancy/log_import/log_map.h"
+#include "plugins/discrepancy/log_import/log_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,11 +2,11 @@
 
 #include <functional>
 
-#include "pedicel/app/report/headless.h"
-#include "pedicel/app/topics/mcap_log.h"
-#include "pedicel/discrepancy/log_import/log_contents.h"
-#include "pedicel/world/scene_reader.h"
-#include "unit/discrepancy_scene/arm_at_stem.h"
+#include "app/report/headless.h"
+#include "app/topics/mcap_log.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/discrepancy/log_import/log_contents.h"
+#include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::app {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "unit/logs/logged_run.h"
+#include "tests/unit/logs/logged_run.h"
 
 namespace pedicel::app {
 namespace {

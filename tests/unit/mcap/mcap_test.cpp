@@ -7,12 +7,12 @@
 #include <csignal>
 #include <sstream>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/io/output_check.h"
-#include "pedicel/mcap/reader.h"
-#include "pedicel/mcap/writer.h"
-#include "support/temporary_folder.h"
+#include "engine/core/diagnostics.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/output_check.h"
+#include "engine/mcap/reader.h"
+#include "engine/mcap/writer.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::mcap {
 namespace {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <numbers>
 
-#include "pedicel/core/random.h"
-#include "pedicel/discrepancy/pick/pick_record.h"
+#include "engine/core/random.h"
+#include "plugins/discrepancy/pick/pick_record.h"
 
 /// Picks with a known end, at a known moment. An arm's tip, a mass on a spring, is led away from a
 /// fruit; between arm and gripper sits the sensor. The stalk and the branch are a spring. It breaks

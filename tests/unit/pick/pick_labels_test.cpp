@@ -1,11 +1,11 @@
 // Labels of picks, and what is learnt of them.
-#include "pedicel/discrepancy/pick/pick_labels.h"
+#include "plugins/discrepancy/pick/pick_labels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::discrepancy {
 namespace {

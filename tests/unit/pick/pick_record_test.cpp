@@ -1,11 +1,11 @@
 // Tables of a wrist's force as people write them.
-#include "pedicel/discrepancy/pick/pick_record.h"
+#include "plugins/discrepancy/pick/pick_record.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::discrepancy {
 namespace {

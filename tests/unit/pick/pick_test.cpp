@@ -1,14 +1,14 @@
 // How a pick ended, on records whose end and moment are known. A break takes the stalk's force away
 // in no time; what is left of its sharpness is the sensor's filter. The arm then swings freely.
-#include "pedicel/discrepancy/pick/pick.h"
+#include "plugins/discrepancy/pick/pick.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/core/check.h"
-#include "unit/pick/made_pick.h"
+#include "engine/core/check.h"
+#include "tests/unit/pick/made_pick.h"
 
 namespace pedicel::discrepancy {
 namespace {

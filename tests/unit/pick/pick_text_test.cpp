@@ -1,15 +1,15 @@
 // What is said of a pick, to people and to machines.
-#include "pedicel/discrepancy/pick/pick_text.h"
+#include "plugins/discrepancy/pick/pick_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "pedicel/discrepancy/pick/pick_report.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
-#include "unit/pick/made_pick.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/pick/pick_report.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/pick/made_pick.h"
 
 namespace pedicel::discrepancy {
 namespace {

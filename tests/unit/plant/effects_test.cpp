@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 
-#include "pedicel/plant/effect_reader.h"
-#include "pedicel/plant/plant_builder.h"
-#include "support/stem_plants.h"
+#include "plugins/plant/effect_reader.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/support/stem_plants.h"
 
 namespace pedicel::plant {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/skeleton/helios_reader.h"
+#include "plugins/skeleton/helios_reader.h"
 
 namespace pedicel::plant {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "pedicel/cosserat/solver/detachment.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/effects_list/joint_terms.h"
-#include "pedicel/plant/plant_builder.h"
-#include "support/stem_plants.h"
+#include "plugins/cosserat/laws/joint_terms.h"
+#include "plugins/cosserat/solver/detachment.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/plant/plant_builder.h"
+#include "tests/support/stem_plants.h"
 
 namespace pedicel::plant {
 namespace {
@@ -59,9 +59,9 @@ TEST(Laws, NonlinearityIsInCurvature) {
   const BuiltPlant plant = with("{name: material_nonlinearity, coefficient: -0.2, k0: 2}");
   const Sample at(plant);
   // phi0 = k0 l_bar: 2 x 0.02 between segments, 2 x 0.01 at the clamp.
-  EXPECT_NEAR(plant.model.laws[at.inner].terms.at(effects::first_number("material_nonlinearity")),
+  EXPECT_NEAR(plant.model.laws[at.inner].terms.at(laws::first_number("material_nonlinearity")),
               -0.2 / (0.04 * 0.04), 1e-6);
-  EXPECT_NEAR(plant.model.laws[at.clamp].terms.at(effects::first_number("material_nonlinearity")),
+  EXPECT_NEAR(plant.model.laws[at.clamp].terms.at(laws::first_number("material_nonlinearity")),
               -0.2 / (0.02 * 0.02), 1e-6);
 }
 

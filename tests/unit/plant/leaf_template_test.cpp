@@ -1,5 +1,5 @@
 // Leaf templates: what is read and refused, and what grows from them.
-#include "pedicel/plant/leaf_template.h"
+#include "plugins/plant/leaf_template.h"
 
 #include <gmock/gmock.h>
 
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <fstream>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/cosserat/solver/direct_solver.h"
-#include "pedicel/cosserat/solver/standing.h"
-#include "places.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/cosserat/solver/direct_solver.h"
+#include "plugins/cosserat/solver/standing.h"
+#include "tests/support/places.h"
 
 namespace pedicel::plant::cases {
 namespace {
@@ -22,7 +22,7 @@ using cosserat::RodState;
 using testing::HasSubstr;
 
 const Vec3 gravity(0, 0, -9.81);
-const std::filesystem::path leaves = std::filesystem::path(PEDICEL_SOURCE_DIR) / "assets/leaves";
+const std::filesystem::path leaves = pedicel::test::source_folder() / "assets/leaves";
 
 const std::string good =
     "format: pedicel-leaf\n"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/skeleton/mtg_reader.h"
+#include "plugins/skeleton/mtg_reader.h"
 
 namespace pedicel::plant {
 namespace {

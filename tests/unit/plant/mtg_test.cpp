@@ -9,9 +9,9 @@
 #include <tuple>
 #include <vector>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/skeleton/mtg_reader.h"
-#include "places.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/skeleton/mtg_reader.h"
+#include "tests/support/places.h"
 
 namespace pedicel::plant {
 namespace {
@@ -194,8 +194,7 @@ std::vector<Key> sorted_keys(const std::vector<SkeletonNode>& nodes) {
   return keys;
 }
 
-const std::filesystem::path apple_tree =
-    std::filesystem::path(PEDICEL_SOURCE_DIR) / "plants/apple_tree.mtg";
+const std::filesystem::path apple_tree = pedicel::test::source_folder() / "plants/apple_tree.mtg";
 
 std::vector<SkeletonNode> nodes_of_the_tree() {
   Diagnostics diagnostics;
@@ -257,8 +256,8 @@ TEST(AppleTree, ItsTableIsTheSamePlant) {
 // The plant file's wood is the MTG's: both are drawn from one tree.
 TEST(AppleTree, ItsPlantFileHasTheSameWood) {
   Diagnostics diagnostics;
-  const auto drawn = read_plant_file(
-      std::filesystem::path(PEDICEL_SOURCE_DIR) / "plants/apple_tree.plant.yaml", diagnostics);
+  const auto drawn =
+      read_plant_file(pedicel::test::source_folder() / "plants/apple_tree.plant.yaml", diagnostics);
   ASSERT_TRUE(drawn) << diagnostics.text();
   std::set<std::vector<double>> places;
   for (const PlantCurve& curve : drawn->curves)

@@ -1,12 +1,12 @@
 // From curves to rods: what stands at a joint, where a place on a curve is
 // found again, and the plants on which the peers were measured.
-#include "pedicel/plant/plant_builder.h"
+#include "plugins/plant/plant_builder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/cosserat/model/rod_state.h"
-#include "pedicel/plant/reference_plants.h"
+#include "plugins/cosserat/model/rod_state.h"
+#include "plugins/plant/reference_plants.h"
 
 namespace pedicel::plant {
 namespace {

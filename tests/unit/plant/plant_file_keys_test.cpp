@@ -1,10 +1,10 @@
 // Keys of plant files are described once: what is described is read.
-#include "pedicel/plant/plant_file_keys.h"
+#include "plugins/plant/plant_file_keys.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/plant/plant_file.h"
-#include "support/described_keys.h"
+#include "plugins/plant/plant_file.h"
+#include "tests/support/described_keys.h"
 
 namespace pedicel::plant {
 namespace {

@@ -1,5 +1,5 @@
 // The plant file: every key is read, and what is written reads back as the same plant.
-#include "pedicel/plant/plant_file.h"
+#include "plugins/plant/plant_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "pedicel/core/random.h"
+#include "engine/core/random.h"
 
 namespace pedicel::plant {
 namespace {

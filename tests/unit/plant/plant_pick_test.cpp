@@ -1,11 +1,11 @@
 // What a stroke would hang on, and what a drawing becomes.
-#include "pedicel/plant/plant_pick.h"
+#include "plugins/plant/plant_pick.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/plant/plant_edit.h"
-#include "pedicel/plant/plant_preview.h"
+#include "plugins/plant/plant_edit.h"
+#include "plugins/plant/plant_preview.h"
 
 namespace pedicel::plant {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pedicel/skeleton/ply_reader.h"
+#include "plugins/skeleton/ply_reader.h"
 
 namespace pedicel::plant {
 namespace {

@@ -1,12 +1,12 @@
-#include "pedicel/plant/point_grid.h"
+#include "plugins/plant/point_grid.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
 
 namespace pedicel::plant {
 namespace {

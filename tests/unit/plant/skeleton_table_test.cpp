@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/skeleton/mtg_reader.h"
-#include "pedicel/skeleton/skeleton.h"
+#include "plugins/skeleton/mtg_reader.h"
+#include "plugins/skeleton/skeleton.h"
 
 namespace pedicel::plant {
 namespace {

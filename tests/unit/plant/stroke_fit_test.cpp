@@ -1,5 +1,5 @@
 // Strokes to curves: within the tolerance, with few points, corners kept, radii as asked.
-#include "pedicel/plant/stroke_fit.h"
+#include "plugins/plant/stroke_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <functional>
 #include <map>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
-#include "pedicel/geometry/curve.h"
-#include "pedicel/geometry/curve_distance.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
+#include "engine/geometry/curve.h"
+#include "engine/geometry/curve_distance.h"
 
 namespace pedicel::plant {
 namespace {

@@ -1,10 +1,10 @@
-#include "pedicel/render/camera.h"
+#include "engine/render/camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
 
 namespace pedicel::render {
 namespace {

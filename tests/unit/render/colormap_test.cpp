@@ -1,11 +1,11 @@
-#include "pedicel/render/colormap.h"
+#include "engine/render/colormap.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "pedicel/render/colour_space.h"
+#include "engine/render/colour_space.h"
 
 namespace pedicel::render {
 namespace {

@@ -1,8 +1,8 @@
-#include "pedicel/render/draw_list.h"
+#include "engine/render/draw_list.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/core/random.h"
+#include "engine/core/random.h"
 
 namespace pedicel::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/render/image.h"
+#include "engine/render/image.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,10 +6,10 @@
 
 #include <fstream>
 
-#include "pedicel/core/check.h"
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/core/random.h"
-#include "support/temporary_folder.h"
+#include "engine/core/check.h"
+#include "engine/core/diagnostics.h"
+#include "engine/core/random.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::render {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "pedicel/geometry/primitives_mesh.h"
-#include "pedicel/render/offscreen.h"
-#include "pedicel/render/renderer.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "engine/render/offscreen.h"
+#include "engine/render/renderer.h"
 
 namespace pedicel::render {
 namespace {

@@ -1,10 +1,10 @@
-#include "pedicel/render/overlay.h"
+#include "engine/render/overlay.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/render/colormap.h"
+#include "engine/render/colormap.h"
 
 namespace pedicel::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/render/renderer.h"
+#include "engine/render/renderer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "pedicel/core/check.h"
-#include "pedicel/render/mesh_normals.h"
-#include "pedicel/render/offscreen.h"
+#include "engine/core/check.h"
+#include "engine/render/mesh_normals.h"
+#include "engine/render/offscreen.h"
 
 namespace pedicel::render {
 namespace {

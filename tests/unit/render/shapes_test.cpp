@@ -3,11 +3,11 @@
 
 #include <set>
 
-#include "pedicel/core/random.h"
-#include "pedicel/render/gl_functions.h"
-#include "pedicel/render/mesh_normals.h"
-#include "pedicel/render/shadow_map.h"
-#include "pedicel/render/unit_meshes.h"
+#include "engine/core/random.h"
+#include "engine/render/gl_functions.h"
+#include "engine/render/mesh_normals.h"
+#include "engine/render/shadow_map.h"
+#include "engine/render/unit_meshes.h"
 
 namespace pedicel::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "pedicel/render/video.h"
+#include "engine/render/video.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <fstream>
 
-#include "pedicel/core/check.h"
-#include "pedicel/render/child_process.h"
-#include "support/temporary_folder.h"
+#include "engine/core/check.h"
+#include "engine/render/child_process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::render {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "pedicel/robot/inverse_kinematics.h"
-#include "unit/robot/robot_cases.h"
+#include "engine/robot/inverse_kinematics.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

@@ -1,8 +1,8 @@
-#include "pedicel/robot/cartesian_path.h"
+#include "engine/robot/cartesian_path.h"
 
 #include <gtest/gtest.h>
 
-#include "unit/robot/robot_cases.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

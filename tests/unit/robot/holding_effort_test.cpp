@@ -1,9 +1,9 @@
-#include "pedicel/robot/holding_effort.h"
+#include "engine/robot/holding_effort.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "unit/robot/robot_cases.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

@@ -1,9 +1,9 @@
-#include "pedicel/robot/inverse_kinematics.h"
+#include "engine/robot/inverse_kinematics.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "unit/robot/robot_cases.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

@@ -1,11 +1,11 @@
-#include "pedicel/robot/kinematics.h"
+#include "engine/robot/kinematics.h"
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/robot/bullet_types.h"
-#include "unit/robot/robot_cases.h"
+#include "engine/robot/bullet_types.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

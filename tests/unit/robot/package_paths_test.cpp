@@ -1,11 +1,11 @@
-#include "pedicel/urdf/package_paths.h"
+#include "engine/urdf/package_paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::robot {
 namespace {

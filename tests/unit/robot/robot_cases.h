@@ -10,10 +10,10 @@
 #include <numbers>
 #include <string>
 
-#include "pedicel/core/random.h"
-#include "pedicel/robot/robot.h"
-#include "pedicel/urdf/urdf_reader.h"
-#include "places.h"
+#include "engine/core/random.h"
+#include "engine/robot/robot.h"
+#include "engine/urdf/urdf_reader.h"
+#include "tests/support/places.h"
 
 namespace pedicel::robot::testing {
 
@@ -63,12 +63,12 @@ inline std::string pendulum_urdf(const std::string& joint_extras,
 
 /// The maker's file of the UFactory Lite 6, not part of this repository.
 inline std::filesystem::path lite6_path() {
-  return std::filesystem::path(PEDICEL_SHARED_DIR) / "data/lite6/xarm_description/urdf/lite6.urdf";
+  return pedicel::test::shared_folder() / "data/lite6/xarm_description/urdf/lite6.urdf";
 }
 
 /// A robot of this repository.
 inline std::filesystem::path asset(const std::string& name) {
-  return std::filesystem::path(PEDICEL_SOURCE_DIR) / "assets/robots" / name / (name + ".urdf");
+  return pedicel::test::source_folder() / "assets/robots" / name / (name + ".urdf");
 }
 
 /// Positions drawn evenly from the limits (continuous joints: a whole turn).

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/robot/dynamics.h"
-#include "unit/robot/robot_cases.h"
+#include "engine/core/check.h"
+#include "engine/robot/dynamics.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

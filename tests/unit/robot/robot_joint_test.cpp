@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "unit/robot/robot_cases.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "unit/robot/robot_cases.h"
+#include "engine/core/check.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/robot/cartesian_path.h"
-#include "unit/robot/robot_cases.h"
+#include "engine/robot/cartesian_path.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

@@ -1,11 +1,11 @@
-#include "pedicel/urdf/substitute_inertia.h"
+#include "engine/urdf/substitute_inertia.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/geometry/mass_properties.h"
-#include "pedicel/geometry/primitives_mesh.h"
-#include "unit/robot/robot_cases.h"
+#include "engine/geometry/mass_properties.h"
+#include "engine/geometry/primitives_mesh.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

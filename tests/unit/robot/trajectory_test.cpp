@@ -1,11 +1,11 @@
-#include "pedicel/robot/trajectory.h"
+#include "engine/robot/trajectory.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "pedicel/core/check.h"
-#include "unit/robot/robot_cases.h"
+#include "engine/core/check.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {

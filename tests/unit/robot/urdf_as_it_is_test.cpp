@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "unit/robot/robot_cases.h"
+#include "tests/unit/robot/robot_cases.h"
 
 // What people's URDFs hold and the standard does not foresee: read where it has one meaning, with a
 // warning where something was left out.

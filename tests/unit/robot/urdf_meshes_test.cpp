@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "support/temporary_folder.h"
-#include "unit/robot/robot_cases.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/robot/robot_cases.h"
 
 // The files that a URDF names: what is missing is left out and said once a package, names written
 // for other systems are read.

@@ -3,8 +3,8 @@
 
 #include <fstream>
 
-#include "support/temporary_folder.h"
-#include "unit/robot/robot_cases.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/robot/robot_cases.h"
 
 // What no real robot has is warned of, and changes nothing.
 namespace pedicel::robot {

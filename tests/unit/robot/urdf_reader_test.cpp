@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "places.h"
-#include "unit/robot/robot_cases.h"
+#include "tests/support/places.h"
+#include "tests/unit/robot/robot_cases.h"
 
 namespace pedicel::robot {
 namespace {
@@ -107,7 +107,7 @@ TEST(UrdfReader, ResolvesMimicsOfMimicsToTheJointThatMovesByItself) {
 class UrdfMesh : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(UrdfMesh, LoadsTheFileWithItsScale) {
-  const auto folder = std::filesystem::path(PEDICEL_SOURCE_DIR) / "tests/unit/robot/meshes";
+  const auto folder = pedicel::test::source_folder() / "tests/unit/robot/meshes";
   Diagnostics diagnostics;
   const auto robot = parse_urdf(
       "<robot name='r'><link name='a'><visual><geometry><mesh filename='tetrahedron" + GetParam() +

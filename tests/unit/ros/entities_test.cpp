@@ -1,5 +1,5 @@
 // Filters of entities: what they leave, and those that would take all memory or all time.
-#include "pedicel/app/ros/entities.h"
+#include "app/ros/entities.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,14 +1,14 @@
 // Joints along paths that come from outside: what is refused, and where they go.
-#include "pedicel/app/ros/joint_follower.h"
+#include "app/ros/joint_follower.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/world/scene_reader.h"
-#include "places.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/simulation/simulation.h"
+#include "tests/support/places.h"
 
 namespace pedicel::app {
 namespace {
@@ -19,14 +19,14 @@ class Follower : public ::testing::Test {
  protected:
   Follower() {
     Diagnostics diagnostics;
-    auto scene = world::read_scene(std::filesystem::path(PEDICEL_SOURCE_DIR) /
-                                       "assets/scenes/cherry_tomato_pull_up.scene.yaml",
-                                   diagnostics);
+    auto scene = world::read_scene(
+        pedicel::test::source_folder() / "assets/scenes/cherry_tomato_pull_up.scene.yaml",
+        diagnostics);
     scene->plants.clear();
     scene->expectations.clear();
     scene->robot->waypoints.clear();
     scene_ = std::move(*scene);
-    simulation_ = std::make_unique<Simulation>(scene_, SimulationOptions{});
+    simulation_ = std::make_unique<simulation::Simulation>(scene_, simulation::SimulationOptions{});
     follower_ = std::make_unique<JointFollower>(*simulation_->robot());
     simulation_->world().add(*follower_);
   }
@@ -58,7 +58,7 @@ class Follower : public ::testing::Test {
   }
 
   world::Scene scene_;
-  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<simulation::Simulation> simulation_;
   std::unique_ptr<JointFollower> follower_;
 };
 

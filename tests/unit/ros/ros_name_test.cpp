@@ -1,11 +1,11 @@
 // Names of ROS 2 as they stand in DDS.
-#include "pedicel/app/ros/ros_name.h"
+#include "app/ros/ros_name.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/app/ros/interfaces.h"
-#include "pedicel/core/check.h"
+#include "app/ros/interfaces.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 namespace {

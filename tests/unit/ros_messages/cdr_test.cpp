@@ -1,11 +1,11 @@
 // Messages as bytes: the bytes of the OMG's CDR, worked out by hand, and back.
-#include "pedicel/ros_messages/cdr.h"
+#include "engine/ros_messages/cdr.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/ros_messages/control_messages.h"
-#include "pedicel/ros_messages/marker_messages.h"
+#include "engine/ros_messages/control_messages.h"
+#include "engine/ros_messages/marker_messages.h"
 
 namespace pedicel::ros {
 namespace {

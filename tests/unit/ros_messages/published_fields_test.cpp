@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/ros_messages/action_messages.h"
-#include "pedicel/ros_messages/control_messages.h"
-#include "pedicel/ros_messages/marker_messages.h"
-#include "pedicel/ros_messages/simulation_messages.h"
-#include "pedicel/ros_messages/type_hash.h"
+#include "engine/ros_messages/action_messages.h"
+#include "engine/ros_messages/control_messages.h"
+#include "engine/ros_messages/marker_messages.h"
+#include "engine/ros_messages/simulation_messages.h"
+#include "engine/ros_messages/type_hash.h"
 
 namespace pedicel::ros {
 namespace {

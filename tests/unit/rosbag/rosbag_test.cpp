@@ -4,10 +4,10 @@
 
 #include <sstream>
 
-#include "pedicel/core/diagnostics.h"
-#include "pedicel/ros_messages/ros1.h"
-#include "pedicel/ros_messages/sensor_messages.h"
-#include "pedicel/rosbag/reader.h"
+#include "engine/core/diagnostics.h"
+#include "engine/ros_messages/ros1.h"
+#include "engine/ros_messages/sensor_messages.h"
+#include "engine/rosbag/reader.h"
 
 namespace pedicel::rosbag {
 namespace {

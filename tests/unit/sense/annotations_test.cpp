@@ -2,9 +2,9 @@
 
 #include <map>
 
-#include "pedicel/app/dataset/run_length.h"
-#include "pedicel/app/dataset/split.h"
-#include "pedicel/app/sense/noise.h"
+#include "app/dataset/run_length.h"
+#include "app/dataset/split.h"
+#include "app/sense/noise.h"
 
 namespace pedicel::app {
 namespace {

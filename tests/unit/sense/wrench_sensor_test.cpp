@@ -1,4 +1,4 @@
-#include "pedicel/app/run/wrench_sensor.h"
+#include "plugins/simulation/wrench_sensor.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "pedicel/app/report/sensor_recorder.h"
-#include "pedicel/app/run/simulation.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_reader.h"
+#include "app/report/sensor_recorder.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_reader.h"
+#include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 namespace {
@@ -38,8 +38,8 @@ class WrenchTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  std::unique_ptr<Simulation> simulation(const std::string& wrenches,
-                                         const std::string& more = "") {
+  std::unique_ptr<simulation::Simulation> simulation(const std::string& wrenches,
+                                                     const std::string& more = "") {
     Diagnostics diagnostics;
     const auto scene = world::parse_scene(
         "format: pedicel-scene\nversion: 1\npurpose: t\nsee: n\nduration: 1\ndt: 0.001\nseed: 2\n"
@@ -47,7 +47,7 @@ class WrenchTest : public testing::Test {
             wrenches + "]\n" + more,
         folder_ / "t.scene.yaml", diagnostics);
     if (!scene) throw InvalidFile(diagnostics);
-    return std::make_unique<Simulation>(*scene, SimulationOptions{});
+    return std::make_unique<simulation::Simulation>(*scene, simulation::SimulationOptions{});
   }
 
   fs::path folder_;
@@ -57,12 +57,12 @@ TEST_F(WrenchTest, AnArmAtRestIsFeltByItsWeight) {
   const auto sim = simulation("{name: wrist, link: hand}, {name: tip, link: finger}");
   for (int i = 0; i < 300; ++i) sim->step();
   // The hand's frame is turned by a quarter about Y: its X points down.
-  const Wrench wrist = sim->wrenches()[0].exact(), tip = sim->wrenches()[1].exact();
+  const simulation::Wrench wrist = sim->wrenches()[0].exact(), tip = sim->wrenches()[1].exact();
   EXPECT_NEAR(wrist[0], 0.7 * 9.81, 1e-6);
   EXPECT_NEAR(wrist.segment<2>(1).norm(), 0.0, 1e-6);
   // The hand's mass is 30 mm beside its origin along Y, the finger's straight below it.
   EXPECT_LT((wrist.tail<3>() - Vec3(0, 0, -0.03 * 0.5 * 9.81)).norm(), 1e-6);
-  EXPECT_LT((tip - (Wrench() << 0, 0, -0.2 * 9.81, 0, 0, 0).finished()).norm(), 1e-6);
+  EXPECT_LT((tip - (simulation::Wrench() << 0, 0, -0.2 * 9.81, 0, 0, 0).finished()).norm(), 1e-6);
 }
 
 TEST_F(WrenchTest, ABodyThatLiesOnAFingerIsFelt) {
@@ -71,7 +71,7 @@ TEST_F(WrenchTest, ABodyThatLiesOnAFingerIsFelt) {
                               "bodies: [{name: load, box: [0.1, 0.03, 0.03], mass: 0.3, "
                               "position: [0.05, 0, 0.826]}]\n");
   for (int i = 0; i < 800; ++i) sim->step();
-  const Wrench wrist = sim->wrenches()[0].exact(), tip = sim->wrenches()[1].exact();
+  const simulation::Wrench wrist = sim->wrenches()[0].exact(), tip = sim->wrenches()[1].exact();
   EXPECT_NEAR(tip[2], -0.3 * 9.81, 0.05);
   EXPECT_NEAR(tip[4], 0.05 * 0.3 * 9.81, 0.01);  // 50 mm along X
   EXPECT_NEAR(wrist[0], (0.7 + 0.3) * 9.81, 0.05);
@@ -137,7 +137,7 @@ TEST_F(WrenchTest, ATaredSensorIsLessTheMeanOfAllOfItsFirstSamples) {
   const auto sim = simulation(
       "{name: wrist, link: hand, tared: true, rate: 100, noise: {force_std: 1}}, "
       "{name: raw, link: hand, rate: 100, noise: {force_std: 1}}");
-  std::vector<WrenchSensor::Sample> tared;
+  std::vector<simulation::WrenchSensor::Sample> tared;
   for (int i = 0; i < 400; ++i) {
     sim->step();
     const auto& fresh = sim->wrenches()[0].new_samples();
@@ -148,7 +148,7 @@ TEST_F(WrenchTest, ATaredSensorIsLessTheMeanOfAllOfItsFirstSamples) {
     tared.insert(tared.end(), fresh.begin(), fresh.end());
   }
   ASSERT_EQ(tared.size(), 40U);
-  Wrench sum = Wrench::Zero();
+  simulation::Wrench sum = simulation::Wrench::Zero();
   double smallest = 1e9, before = -1.0;
   for (const auto& one : tared) {
     EXPECT_GT(one.time, before);

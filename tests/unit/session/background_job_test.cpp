@@ -1,6 +1,6 @@
 // Work on a thread of its own. Built by itself, too, so that it runs under the thread sanitizer.
 
-#include "pedicel/app/session/measured/background_job.h"
+#include "app/session/measured/background_job.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What no simulation could hold is refused before anything is made of it.
 #include <gmock/gmock.h>
 
-#include "edit_cases.h"
+#include "tests/unit/session/edit_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,13 +1,13 @@
 // The text form of commands: what is written reads back the same, and what is wrong is said with
 // its place.
-#include "pedicel/app/session/commands/command.h"
+#include "app/session/commands/command.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/core/check.h"
-#include "session_cases.h"
+#include "app/session/commands/command_table.h"
+#include "engine/core/check.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

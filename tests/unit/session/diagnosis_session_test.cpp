@@ -5,12 +5,12 @@
 #include <cmath>
 #include <thread>
 
-#include "pedicel/app/session/measured/diagnosis_card.h"
-#include "pedicel/app/session/measured/measured_data.h"
-#include "pedicel/app/session/session_measured.h"
-#include "session_cases.h"
-#include "support/measured_stem.h"
-#include "support/temporary_folder.h"
+#include "app/session/measured/diagnosis_card.h"
+#include "app/session/measured/measured_data.h"
+#include "app/session/session_measured.h"
+#include "tests/support/measured_stem.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

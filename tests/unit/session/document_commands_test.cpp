@@ -1,8 +1,8 @@
 // Edits of plants, one by one: what they change, what follows, what they refuse.
 #include <gmock/gmock.h>
 
-#include "edit_cases.h"
-#include "pedicel/plant/stem_tree.h"
+#include "plugins/plant/stem_tree.h"
+#include "tests/unit/session/edit_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,9 +1,9 @@
 // Rays to places: planes, bodies, and the strokes that are drawn on them.
-#include "pedicel/app/session/live/draw_surface.h"
+#include "app/session/live/draw_surface.h"
 
 #include <gmock/gmock.h>
 
-#include "session_cases.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

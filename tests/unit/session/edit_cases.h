@@ -1,10 +1,10 @@
 #pragma once
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/core/check.h"
-#include "pedicel/plant/plant_edit.h"
-#include "session_cases.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/document/document.h"
+#include "engine/core/check.h"
+#include "plugins/plant/plant_edit.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 

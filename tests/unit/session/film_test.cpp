@@ -1,11 +1,11 @@
 // Films of a session: when a picture is taken, whatever the machine's speed.
-#include "pedicel/app/session/film.h"
+#include "app/session/film.h"
 
 #include <gmock/gmock.h>
 
-#include "pedicel/app/session/session_films.h"
-#include "pedicel/io/atomic_file.h"
-#include "session_cases.h"
+#include "app/session/session_films.h"
+#include "engine/io/atomic_file.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

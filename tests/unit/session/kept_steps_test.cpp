@@ -1,9 +1,9 @@
 // What a run that is played keeps of its steps, and when its next one is due.
-#include "pedicel/app/session/live/kept_steps.h"
+#include "app/session/live/kept_steps.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/app/session/live/run_clock.h"
+#include "app/session/live/run_clock.h"
 
 namespace pedicel::app {
 namespace {

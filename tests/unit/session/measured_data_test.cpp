@@ -4,16 +4,16 @@
 #include <cmath>
 #include <thread>
 
-#include "pedicel/app/session/measured/experiment_reading.h"
-#include "pedicel/app/session/measured/measured_instant.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_measured.h"
-#include "pedicel/core/timer.h"
-#include "pedicel/io/atomic_file.h"
-#include "session_cases.h"
-#include "support/measured_stem.h"
-#include "support/slow_file.h"
-#include "support/temporary_folder.h"
+#include "app/session/measured/experiment_reading.h"
+#include "app/session/measured/measured_instant.h"
+#include "app/session/session_files.h"
+#include "app/session/session_measured.h"
+#include "engine/core/timer.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/measured_stem.h"
+#include "tests/support/slow_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "pedicel/app/session/measured/diagnosis_card.h"
-#include "pedicel/app/session/measured/scene_instant.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_measured.h"
-#include "session_cases.h"
-#include "support/measured_push.h"
-#include "support/temporary_folder.h"
+#include "app/session/measured/diagnosis_card.h"
+#include "app/session/measured/scene_instant.h"
+#include "app/session/session_files.h"
+#include "app/session/session_measured.h"
+#include "tests/support/measured_push.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -2,12 +2,12 @@
 // give the same again; and their texts, replayed, too.
 #include <set>
 
-#include "pedicel/app/session/commands/command_table.h"
-#include "pedicel/app/session/document/document.h"
-#include "pedicel/app/session/history.h"
-#include "pedicel/core/check.h"
-#include "pedicel/core/random.h"
-#include "session_cases.h"
+#include "app/session/commands/command_table.h"
+#include "app/session/document/document.h"
+#include "app/session/history.h"
+#include "engine/core/check.h"
+#include "engine/core/random.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

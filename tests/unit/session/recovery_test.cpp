@@ -10,12 +10,12 @@
 #include <fstream>
 #include <functional>
 
-#include "pedicel/app/session/journal.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_recovery.h"
-#include "pedicel/io/atomic_file.h"
-#include "session_cases.h"
-#include "support/temporary_folder.h"
+#include "app/session/journal.h"
+#include "app/session/session_files.h"
+#include "app/session/session_recovery.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

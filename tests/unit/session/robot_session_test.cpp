@@ -1,11 +1,11 @@
 // The robot led by hand: where its tool is asked to go, the ghost of its goal, programs.
 #include <gmock/gmock.h>
 
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_robot.h"
-#include "pedicel/core/timer.h"
-#include "session_cases.h"
-#include "support/temporary_folder.h"
+#include "app/session/session_files.h"
+#include "app/session/session_robot.h"
+#include "engine/core/timer.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

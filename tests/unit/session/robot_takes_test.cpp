@@ -2,12 +2,12 @@
 // takes off, and what is said where it does not.
 #include <gmock/gmock.h>
 
-#include "pedicel/app/session/live/pick_program.h"
-#include "pedicel/app/session/live/robot_contacts.h"
-#include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/io/atomic_file.h"
-#include "session_cases.h"
-#include "support/temporary_folder.h"
+#include "app/session/live/pick_program.h"
+#include "app/session/live/robot_contacts.h"
+#include "app/session/live/robot_goal.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,16 +1,17 @@
 // The simulation on its own thread: it does what it is told, goes back exactly, and waits for
 // nobody.
-#include "pedicel/app/session/live/run_control.h"
+#include "app/session/live/run_control.h"
 
 #include <gmock/gmock.h>
 
 #include <chrono>
 #include <thread>
 
-#include "pedicel/app/session/live/live_run.h"
-#include "pedicel/app/session/live/organ_place.h"
-#include "pedicel/app/session/session_files.h"
-#include "session_cases.h"
+#include "app/session/live/live_run.h"
+#include "app/session/live/organ_place.h"
+#include "app/session/live/pull.h"
+#include "app/session/session_files.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <fstream>
 
-#include "pedicel/app/session/document/effective_plant.h"
-#include "pedicel/app/session/live/robot_goal.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_robot.h"
-#include "pedicel/io/atomic_file.h"
-#include "session_cases.h"
+#include "app/session/document/effective_plant.h"
+#include "app/session/live/robot_goal.h"
+#include "app/session/session_files.h"
+#include "app/session/session_robot.h"
+#include "engine/io/atomic_file.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <fstream>
 
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/io/atomic_file.h"
-#include "session_cases.h"
-#include "support/temporary_folder.h"
+#include "app/session/session_files.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -3,13 +3,13 @@
 
 #include <fstream>
 
-#include "edit_cases.h"
-#include "pedicel/app/session/commands/scene_things.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_recovery.h"
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "app/session/commands/scene_things.h"
+#include "app/session/session_files.h"
+#include "app/session/session_recovery.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/edit_cases.h"
 
 namespace pedicel::app {
 namespace {

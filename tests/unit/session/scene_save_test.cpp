@@ -1,15 +1,15 @@
 // What was changed of a scene is written into its file, which stays otherwise as it was.
-#include "pedicel/app/session/document/scene_save.h"
+#include "app/session/document/scene_save.h"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/app/session/session_tuning.h"
-#include "pedicel/io/atomic_file.h"
-#include "session_cases.h"
-#include "support/temporary_folder.h"
+#include "app/session/session_files.h"
+#include "app/session/session_tuning.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,5 +1,5 @@
 // Scripts: the whole story of a user, and what a script is told when it goes wrong.
-#include "pedicel/app/session/script.h"
+#include "app/session/script.h"
 
 #include <gmock/gmock.h>
 
@@ -7,10 +7,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/io/atomic_file.h"
-#include "session_cases.h"
-#include "support/temporary_folder.h"
+#include "app/session/session_files.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

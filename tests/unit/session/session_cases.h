@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "pedicel/app/session/session.h"
-#include "places.h"
+#include "app/session/session.h"
+#include "tests/support/places.h"
 
 /// A stem, a branch that hangs from its middle, a fruit at the branch's end.
 namespace pedicel::app {
@@ -33,7 +33,7 @@ inline SessionOptions waiting() {
 }
 
 inline std::filesystem::path source(const std::string& path) {
-  return std::filesystem::path(PEDICEL_SOURCE_DIR) / path;
+  return pedicel::test::source_folder() / path;
 }
 
 }  // namespace pedicel::app

@@ -1,14 +1,14 @@
 // Opening, saving, importing, exporting: what is written is what was drawn.
-#include "pedicel/app/session/session_files.h"
+#include "app/session/session_files.h"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/plant/plant_graph.h"
-#include "session_cases.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "plugins/plant/plant_graph.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,8 +1,8 @@
 // Kinds of control points and cuts: the shapes that they make, what stays, what is refused.
 #include <gmock/gmock.h>
 
-#include "edit_cases.h"
-#include "pedicel/plant/point_kind.h"
+#include "plugins/plant/point_kind.h"
+#include "tests/unit/session/edit_cases.h"
 
 namespace pedicel::app {
 namespace {

@@ -1,10 +1,10 @@
 // Strings that hold plants, as commands: added, changed, taken away, undone and saved.
 #include <gmock/gmock.h>
 
-#include "edit_cases.h"
-#include "pedicel/app/session/session_files.h"
-#include "pedicel/io/atomic_file.h"
-#include "support/temporary_folder.h"
+#include "app/session/session_files.h"
+#include "engine/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/session/edit_cases.h"
 
 namespace pedicel::app {
 namespace {

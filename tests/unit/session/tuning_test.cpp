@@ -2,8 +2,8 @@
 // both are exact.
 #include <gmock/gmock.h>
 
-#include "pedicel/app/session/session_tuning.h"
-#include "session_cases.h"
+#include "app/session/session_tuning.h"
+#include "tests/unit/session/session_cases.h"
 
 namespace pedicel::app {
 namespace {

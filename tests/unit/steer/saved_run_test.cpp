@@ -1,11 +1,11 @@
-#include "pedicel/app/steer/saved_run.h"
+#include "app/steer/saved_run.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::app {
 namespace {

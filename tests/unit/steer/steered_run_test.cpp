@@ -1,11 +1,11 @@
-#include "pedicel/app/steer/steered_run.h"
+#include "app/steer/steered_run.h"
 
 #include <gtest/gtest.h>
 
-#include "pedicel/app/steer/steered_worlds.h"
-#include "pedicel/app/steer/visibility.h"
-#include "pedicel/core/check.h"
-#include "places.h"
+#include "app/steer/steered_worlds.h"
+#include "app/steer/visibility.h"
+#include "engine/core/check.h"
+#include "tests/support/places.h"
 
 namespace pedicel::app {
 namespace {
@@ -115,10 +115,9 @@ TEST(VisibleShare, IsOneInTheOpenAndNoneBehindAStem) {
 // The shipped scene of leaf blades: an arm turns a neighbour's leaf aside, which hides the fruit
 // again when it is let go. From the time where it lies on the fingers a saved state goes on alike.
 TEST(VisibleShare, ALeafThatIsTurnedAsideUncoversTheFruit) {
-  const auto scene =
-      std::make_shared<const SteeredScene>(open_document(std::filesystem::path(PEDICEL_SOURCE_DIR) /
-                                                         "assets/scenes/leaf_aside.scene.yaml"),
-                                           std::vector<std::string>{});
+  const auto scene = std::make_shared<const SteeredScene>(
+      open_document(pedicel::test::source_folder() / "assets/scenes/leaf_aside.scene.yaml"),
+      std::vector<std::string>{});
   SteeredRun run(scene), other(scene);
   const auto seen = [&] {
     return visible_share(run.simulation(), "bearer/berry", camera_place(run.simulation(), "watch"));

@@ -1,10 +1,10 @@
-#include "pedicel/world/bodies.h"
+#include "engine/world/bodies.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "pedicel/world/rigid_shape.h"
+#include "engine/world/rigid_shape.h"
 
 namespace pedicel::world {
 namespace {

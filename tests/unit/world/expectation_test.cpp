@@ -1,4 +1,4 @@
-#include "pedicel/world/expectation.h"
+#include "engine/world/expectation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "pedicel/world/recorder.h"
+#include "engine/world/recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/sim_world.h"
+#include "engine/core/check.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/sim_world.h"
 
 namespace pedicel::world {
 namespace {

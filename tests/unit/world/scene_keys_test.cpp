@@ -1,11 +1,11 @@
 // Keys of scenes are described once: what is described is read, and nothing else.
 #include <gtest/gtest.h>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/variation.h"
-#include "support/described_keys.h"
-#include "support/temporary_folder.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/variation.h"
+#include "tests/support/described_keys.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pedicel::world {
 namespace {

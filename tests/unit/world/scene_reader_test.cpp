@@ -1,10 +1,10 @@
-#include "pedicel/world/scene_reader.h"
+#include "engine/world/scene_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/io/atomic_file.h"
-#include "pedicel/world/scene_writer.h"
+#include "engine/io/atomic_file.h"
+#include "engine/world/scene_writer.h"
 
 namespace pedicel::world {
 namespace {

@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/scene_writer.h"
-#include "pedicel/world/settings.h"
+#include "engine/core/check.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/scene_writer.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::world {
 namespace {

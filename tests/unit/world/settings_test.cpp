@@ -1,9 +1,9 @@
-#include "pedicel/world/settings.h"
+#include "engine/world/settings.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::world {
 namespace {

@@ -1,10 +1,10 @@
-#include "pedicel/world/sim_world.h"
+#include "engine/world/sim_world.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "pedicel/core/check.h"
+#include "engine/core/check.h"
 
 namespace pedicel::world {
 namespace {

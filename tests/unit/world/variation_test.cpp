@@ -1,12 +1,12 @@
-#include "pedicel/world/variation.h"
+#include "engine/world/variation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "pedicel/world/scene_reader.h"
-#include "pedicel/world/settings.h"
+#include "engine/world/scene_reader.h"
+#include "engine/world/settings.h"
 
 namespace pedicel::world {
 namespace {

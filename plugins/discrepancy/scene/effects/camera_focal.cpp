@@ -1,5 +1,5 @@
-#include "pedicel/discrepancy/scene/effect_parameters.h"
-#include "pedicel/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene/effect_parameters.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "pedicel/discrepancy/scene/effect_parameters.h"
-#include "pedicel/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene/effect_parameters.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
 

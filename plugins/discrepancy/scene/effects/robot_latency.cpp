@@ -1,4 +1,4 @@
-#include "pedicel/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "plugins/discrepancy/scene/arm.h"
+
+namespace pedicel::discrepancy {
+
+/// Where an arm's links go that follows commands: Bullet's arm with its motors, damping and
+/// friction, alone in its world, from the first row on. It does not feel the plants. Steps of `dt`
+/// (s), up to `until` (s).
+JointPath run_arm(const SceneExperiment& experiment, const SceneTrial& trial,
+                  const SceneState& state, const Arm& arm, double dt, double until);
+
+}  // namespace pedicel::discrepancy
