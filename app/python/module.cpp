@@ -99,7 +99,7 @@ void add_variation(py::module_& module) {
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Pedicel's engine; to be used through the package pedicel.";
   // Errors are exceptions here, so nothing else needs to be said on standard error.
-  app::set_verbosity(app::Verbosity::nothing);
+  set_verbosity(Verbosity::nothing);
   module.attr("version") = app::version();
   module.attr("git_hash") = app::git_hash();
   module.def("asset_folder", [] { return io::asset_folder().string(); });

@@ -14,8 +14,8 @@ constexpr double gap_px = 13.0;   // from the outline: clear of the control poin
 constexpr double reach_px = 6.5;  // of the pointer
 constexpr double least = 1.0e-4;  // m, of a radius
 
-std::optional<RadiusHandle> radius_handle(const Vec3& centre, const Vec3& across, double radius,
-                                          int point, const SceneFrame& frame, double scale) {
+std::optional<RadiusHandle> handle_at(const Vec3& centre, const Vec3& across, double radius,
+                                      int point, const SceneFrame& frame, double scale) {
   RadiusHandle made;
   made.point = point, made.radius = radius;
   const double depth = (centre - frame.camera.eye).norm();
@@ -52,8 +52,8 @@ std::vector<RadiusHandle> radius_handles(const plant::PlantCurve& curve, const P
     const Vec3 across = along.cross((centre - frame.camera.eye).normalized());
     if (across.norm() < 0.1) continue;
     for (const double side : {-1.0, 1.0})
-      if (const auto made = radius_handle(centre, side * across.normalized(), drawn.radius(arc),
-                                          one.index, frame, scale))
+      if (const auto made = handle_at(centre, side * across.normalized(), drawn.radius(arc),
+                                      one.index, frame, scale))
         handles.push_back(*made);
   }
   return handles;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/timer.h"
+#include "plugins/cosserat/contact/self_contact.h"
 #include "plugins/simulation/colliders.h"
 #include "tests/stress/sentence.h"
 #include "tests/support/temporary_folder.h"

@@ -29,8 +29,10 @@ endfunction()
 # pedicel_compiled(NAME cold|hot|test): the flags of that kind, and its precompiled headers: what a
 # third of a file's time would go into. clang-tidy and the fuzzers go without.
 function(pedicel_compiled NAME KIND)
-  set_target_properties(${NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
-                        VISIBILITY_INLINES_HIDDEN ON)
+  if(NOT KIND STREQUAL test)
+    set_target_properties(${NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                          VISIBILITY_INLINES_HIDDEN ON)
+  endif()
   if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT KIND STREQUAL hot)
     target_compile_options(${NAME} PRIVATE -O1)
   endif()

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "plugins/cosserat/contact/self_contact.h"
 #include "plugins/simulation/colliders.h"
 #include "tests/support/places.h"
 #include "tests/unit/app/contact_cases.h"

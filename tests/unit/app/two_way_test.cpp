@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/random.h"
+#include "plugins/cosserat/contact/self_contact.h"
 #include "plugins/simulation/colliders.h"
 #include "tests/unit/app/contact_cases.h"
 

@@ -6,6 +6,7 @@
 
 #include "plugins/cosserat/lanes/lane_kernels.h"
 #include "plugins/cosserat/model/turn_frame.h"
+#include "plugins/cosserat/solver/direct_solver.h"
 #include "plugins/cosserat/solver/rod_system.h"
 #include "tests/support/rod_tips.h"
 #include "tests/unit/cosserat/extension_cases.h"

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "engine/core/check.h"
+#include "plugins/cosserat/contact/self_contact.h"
 #include "plugins/cosserat/solver/rod_system.h"
 #include "plugins/plant/reference_plants.h"
 #include "tests/analytic/rod_cases.h"
