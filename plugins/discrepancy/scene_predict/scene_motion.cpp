@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/geometry/shapes.h"
 #include "plugins/cosserat/model/rotation.h"
 #include "plugins/cosserat/solver/equilibrium.h"
 #include "plugins/cosserat/solver/rod_system.h"
@@ -15,12 +14,13 @@
 #include "plugins/discrepancy/scene/giving_source.h"
 #include "plugins/discrepancy/scene/state_changes.h"
 #include "plugins/discrepancy/simulate/variant_plant.h"
+#include "plugins/simulation/colliders.h"
+#include "plugins/simulation/plants/start_overlaps.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr int body_of_robot = 0, body_of_scene = 1;
 /// N/m, of what a link holds; and the nearest to a segment's middle that a hold gives way in
 /// bending, as a share of its length.
 constexpr double hold_stiffness = 1.0e6, least_bent = 5.0e-3;
@@ -76,11 +76,10 @@ class SceneRun {
         motion_.healthy = false;
       if (!find_equilibrium(models_[p], state, experiment_.scene.gravity, {}))
         motion_.healthy = false;
-      auto source =
-          std::make_unique<GivingSource>(colliders_, settings_, margin_, body_of_robot, arm_);
+      auto source = std::make_unique<GivingSource>(colliders_, settings_, margin_,
+                                                   simulation::robot_body, arm_);
       source->ignore_touching(models_[p], state);
       lean_on_arm(p, state, *source);
-      watch_stalks(p, state);
       const int plant = rods.add_plant(models_[p]);
       rods.set_state(plant, state);
       sources_.push_back(source.get());
@@ -94,9 +93,13 @@ class SceneRun {
     poses_.resize(static_cast<std::size_t>(colliders_.size()));
     for (int c = 0; c < colliders_.size(); ++c) {
       const coupling::Collider& collider = colliders_.collider(c);
-      poses_[static_cast<std::size_t>(c)] =
-          collider.body == body_of_robot ? arm_.links[static_cast<std::size_t>(collider.link)]
-                                         : Pose{};
+      Pose& pose = poses_[static_cast<std::size_t>(c)];
+      if (collider.body == simulation::robot_body)
+        pose = arm_.links[static_cast<std::size_t>(collider.link)];
+      else if (collider.body >= 0)  // bodies rest where the scene puts them
+        pose = experiment_.scene.bodies[static_cast<std::size_t>(collider.body)].pose;
+      else
+        pose = Pose{};
     }
     colliders_.update(poses_);
   }
@@ -172,30 +175,6 @@ class SceneRun {
     return motion_.healthy;
   }
 
-  /// Takes fruits off whose stalks pass on more than they bear.
-  void part_stalks(cosserat::RodSystem& rods, double t) {
-    for (Stalk& stalk : stalks_) {
-      const int plant = first_ + stalk.plant;
-      const cosserat::RodModel& model = rods.model(plant);
-      const cosserat::RodState& state = rods.state(plant);
-      const auto f = static_cast<std::size_t>(stalk.fruit);
-      if (state.fruit_gone[f]) continue;
-      const int e = model.fruits[f].element;
-      const cosserat::JointLoad now = cosserat::joint_load(model, state, e);
-      // By the elastic part alone a stalk that is pulled evenly would part later by its damping
-      // time. The rate is the step's own: that of velocities is no difference of these strains.
-      const double share = model.elements[static_cast<std::size_t>(e)].damping_time / dt_;
-      const Vec3 force = now.force + share * (now.force - stalk.last.force);
-      const Vec3 moment = now.moment + share * (now.moment - stalk.last.moment);
-      stalk.last = now;
-      if (force.norm() <= stalk.limits.force && moment.head<2>().norm() <= stalk.limits.moment &&
-          std::abs(moment.z()) <= stalk.limits.torsion)
-        continue;
-      motion_.events.push_back({t, "detached", model.fruits[f].name, ""});
-      cosserat::take_off(rods.edit_model(plant), rods.edit_state(plant), stalk.fruit);
-    }
-  }
-
   void take_events(const cosserat::RodSystem& rods, double t) {
     for (std::size_t p = 0; p < models_.size(); ++p)
       for (const cosserat::DetachEvent& event : rods.detached(first_ + static_cast<int>(p)))
@@ -207,27 +186,6 @@ class SceneRun {
   SceneMotion take() { return std::move(motion_); }
 
  private:
-  /// A stalk that bears so much force, moment and torsion. Its joint's load counts with what
-  /// damping passes on, as Newton's law for the fruit has it, and as a load cell would.
-  struct Stalk {
-    int plant = 0, fruit = 0;
-    cosserat::Thresholds limits;
-    cosserat::JointLoad last;  // at the last step
-  };
-
-  // Limits of load are looked at here, and no more by the solver, which knows the elastic part
-  // alone. Strains and laws stay with it.
-  void watch_stalks(std::size_t p, const cosserat::RodState& state) {
-    for (std::size_t f = 0; f < models_[p].fruits.size(); ++f) {
-      cosserat::Fruit& fruit = models_[p].fruits[f];
-      if (fruit.law) continue;
-      stalks_.push_back({static_cast<int>(p), static_cast<int>(f), fruit.thresholds,
-                         cosserat::joint_load(models_[p], state, fruit.element)});
-      fruit.thresholds.force = fruit.thresholds.moment = fruit.thresholds.torsion =
-          cosserat::Thresholds::never;
-    }
-  }
-
   /// An organ that a link holds rigidly.
   struct Held {
     std::string what;
@@ -345,56 +303,13 @@ class SceneRun {
   }
 
   void add_colliders(const LinkFields& fields) {
-    const robot::RobotDescription& robot = member_.arm->description();
-    for (std::size_t l = 0; l < robot.links.size(); ++l)
-      for (std::size_t c = 0; c < robot.links[l].collisions.size(); ++c) {
-        coupling::Collider collider;
-        collider.name = robot.links[l].name;
-        collider.body = body_of_robot;
-        collider.link = static_cast<int>(l);
-        collider.shape = fields[l][c];
-        collider.X_LC = robot.links[l].collisions[c].X_LC;
-        const auto own = member_.state->friction_of_link.find(static_cast<int>(l));
-        if (own != member_.state->friction_of_link.end()) collider.friction = own->second;
-        colliders_.add(std::move(collider), arm_.links[l]);
-      }
-    add_resting(experiment_.scene);
-  }
-
-  // The ground, and bodies where the scene puts them: they stay there.
-  void add_resting(const world::Scene& scene) {
-    const auto add = [&](const std::string& name,
-                         std::shared_ptr<const geometry::SignedDistance> shape, const Pose& pose,
-                         double friction) {
-      coupling::Collider collider;
-      collider.name = name;
-      collider.body = body_of_scene;
-      collider.shape = std::move(shape);
-      collider.X_LC = pose;
-      collider.friction = std::min(friction, 1.0);
-      colliders_.add(std::move(collider), Pose{});
-    };
-    if (scene.ground)
-      add("ground", std::make_shared<geometry::PlaneDistance>(Vec3::UnitZ(), scene.ground->height),
-          Pose{}, scene.ground->friction);
-    for (const world::BodyDescription& body : scene.bodies)
-      for (const world::BodyPart& part : body.parts)
-        add(body.name, field_of_part(part), body.pose * part.pose, body.friction);
-  }
-
-  static std::shared_ptr<const geometry::SignedDistance> field_of_part(
-      const world::BodyPart& part) {
-    switch (part.kind) {
-      case world::BodyPart::Kind::box:
-        return std::make_shared<geometry::BoxDistance>(2.0 * part.half_extents);
-      case world::BodyPart::Kind::sphere:
-        return std::make_shared<geometry::SphereDistance>(part.radius);
-      case world::BodyPart::Kind::cylinder:
-        return std::make_shared<geometry::CylinderDistance>(part.radius, part.length);
-      case world::BodyPart::Kind::capsule:
-        break;
-    }
-    return std::make_shared<geometry::CapsuleDistance>(part.radius, part.length);
+    simulation::add_robot_colliders(colliders_, "robot", member_.arm->description(), fields,
+                                    arm_.links, member_.state->friction_of_link);
+    const world::Scene& scene = experiment_.scene;
+    if (scene.ground) simulation::add_ground_collider(colliders_, *scene.ground);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      simulation::add_body_colliders(colliders_, scene.bodies[b], static_cast<int>(b),
+                                     scene.bodies[b].pose);
   }
 
   Trial masses_of(std::size_t plant) const {
@@ -446,17 +361,13 @@ class SceneRun {
   // A stem that stands where the arm begins leans on it: what was measured overlapped nowhere.
   void lean_on_arm(std::size_t p, cosserat::RodState& state, GivingSource& source) {
     if (!source.overlaps_arm(models_[p], state)) return;
-    const cosserat::RodState standing = state;
-    cosserat::ContactSource* const contact = &source;
     // How far a joint gives way is known in a step alone, and the first one moves it there.
     const bool gives = std::exchange(arm_.gives, false);
-    const bool rests =
-        find_equilibrium(models_[p], state, experiment_.scene.gravity, {}, {&contact, 1});
+    const bool rests = simulation::lean(models_[p], state, experiment_.scene.gravity, source);
     arm_.gives = gives;
     leans_ = leans_ || rests;  // of several plants one is enough
     if (rests) return;
     // Where it finds no rest the two do not touch, as in a run.
-    state = standing;
     source.inner().ignore_touching(models_[p], state);
   }
 
@@ -481,7 +392,7 @@ class SceneRun {
     report_.end();
     for (int c = 0; c < colliders_.size(); ++c) {
       const coupling::ContactSum& sum = report_.colliders()[static_cast<std::size_t>(c)];
-      if (sum.contacts == 0 || colliders_.collider(c).body != body_of_robot) continue;
+      if (sum.contacts == 0 || colliders_.collider(c).body != simulation::robot_body) continue;
       add_contact(colliders_.collider(c).link, sum, row);
     }
     record_held(rods, row);
@@ -530,7 +441,6 @@ class SceneRun {
   std::vector<plant::PlacedPoint> force_places_;
   GivingJoints joints_;
   GivingArm arm_;
-  std::vector<Stalk> stalks_;
   std::vector<Held> held_;
   std::size_t next_event_ = 0;
   bool changed_ = false;  // supports are those of the model no longer
@@ -578,7 +488,6 @@ std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, cons
     bool any = false;
     for (const auto& variant : variants) {
       if (!variant->healthy()) continue;
-      variant->part_stalks(rods, t);
       variant->take_events(rods, t);
       if (stop || !variant->judge(rods)) {
         variant->fail();

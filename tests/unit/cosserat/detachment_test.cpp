@@ -52,6 +52,27 @@ double carried(const RodModel& model, const RodState& state, const std::string& 
   return std::abs(load.moment.z());
 }
 
+// What damping passes on counts for limits of load: K (strain + time rate), by the step's own rate.
+TEST(Detachment, LimitsOfLoadCountWhatDampingPassesOn) {
+  RodModel model = stalk({});
+  for (Element& element : model.elements) element.damping_time = 0.02;
+  RodState state = loaded(model);
+  const double elastic = joint_load(model, state, 1).force.norm();
+  model.fruits[0].thresholds.force = 1.5 * elastic;
+  std::vector<DetachEvent> events;
+  StalkStart rested;
+  begin_stalks(model, state, 0.01, rested);
+  detach(model, state, events, rested);
+  EXPECT_TRUE(events.empty()) << "nothing moved";
+  // The load grew from zero within the step: three times the elastic part in all.
+  StalkStart pulled = rested;
+  pulled.loads[0] = JointLoad{};
+  detach(model, state, events, pulled);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].cause, "force");
+  EXPECT_NEAR(events[0].force, 3.0 * elastic, 1e-9 * elastic);
+}
+
 TEST(Detachment, EachThresholdBreaksAtItsValueAndIsNamed) {
   for (const Limit& limit : limits) {
     RodModel model = stalk({});

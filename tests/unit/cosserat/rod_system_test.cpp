@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 
+#include "plugins/cosserat/solver/joined_systems.h"
 #include "plugins/plant/reference_plants.h"
 #include "tests/analytic/rod_cases.h"
 #include "tests/analytic/sphere_source.h"
@@ -50,6 +51,23 @@ TEST(RodSystem, SameBitsWithOneAndTwoThreads) {
     EXPECT_EQ(one, hash_after(settings, 2, 120));
     EXPECT_EQ(one, hash_after(settings, 1, 120));
     EXPECT_NE(one, hash_after(settings, 1, 121));
+  }
+}
+
+// Solved side by side, systems go as each does alone.
+TEST(JoinedSystems, GoAsEachDoesAlone) {
+  const RodSettings settings;
+  const std::uint64_t alone = hash_after(settings, 1, 60);
+  RodSystem a(settings), b(settings), c(settings);
+  const std::vector<RodSystem*> all = {&a, &b, &c};
+  for (RodSystem* one : all) plant_garden(*one);
+  JoinedSystems joined(settings, all);
+  for (int i = 0; i < 60; ++i)
+    joined.step([&](int s) { all[static_cast<std::size_t>(s)]->step(dt, gravity); });
+  for (RodSystem* one : all) {
+    StateHash hash;
+    one->add_to(hash);
+    EXPECT_EQ(hash.value(), alone);
   }
 }
 
