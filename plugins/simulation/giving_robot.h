@@ -23,8 +23,6 @@ class GivingRobot {
   world::Participant& after() { return after_; }
   /// Where they are, for the plants' contacts.
   const discrepancy::GivingArm& arm() const { return arm_; }
-  /// While a plant looks for rest against it, before the first step.
-  void hold_rigid(bool rigid) { arm_.gives = !rigid; }
   /// After the plants: what these exert on the links.
   void act(const coupling::ContactReport& contacts, const coupling::ColliderSet& colliders);
 

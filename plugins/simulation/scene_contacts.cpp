@@ -69,27 +69,9 @@ void SceneContacts::add_grip(const SceneAssets& assets) {
 
 void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& diagnostics) {
   coupling::ColliderSource& source = add_source(assets, p);
-  // A plant drawn through a body would be shot out in the first step. A stem that stands where the
-  // arm begins leans on it, as far as it finds rest there.
-  std::vector<coupling::Overlap> overlaps =
-      source.overlaps(rods_.model(p), rods_.state(p), assets.coupling.margin);
-  const auto is_link_at_stem = [&](int shape, int collider) {
-    return colliders_.collider(collider).body == robot_body &&
-           colliders_.placement(collider).drive < 0 &&
-           rods_.model(p).shapes[static_cast<std::size_t>(shape)].fruit < 0;
-  };
-  const bool overlaps_link = std::ranges::any_of(overlaps, [&](const coupling::Overlap& one) {
-    return is_link_at_stem(one.shape, one.collider);
-  });
-  source.ignore_touching(rods_.model(p), rods_.state(p), [&](int shape, int collider) {
-    return !is_link_at_stem(shape, collider);
-  });
-  if (overlaps_link && lean_on_arm(assets, p)) {
-    for (coupling::Overlap& one : overlaps)
-      if (is_link_at_stem(one.shape, one.collider)) one.is_ignored = false;
-  } else if (overlaps_link) {
-    source.ignore_touching(rods_.model(p), rods_.state(p), is_link_at_stem);
-  }
+  // A plant drawn through a link would be shot out in the first step.
+  const std::vector<coupling::Overlap> overlaps =
+      source.ignore_touching(rods_.model(p), rods_.state(p));
   for (const StartOverlap& overlap : start_overlaps(rods_.model(p), colliders_, overlaps))
     diagnostics.warning(place_of(colliders_.collider(overlap.collider)), overlap.text);
   sources_.push_back(&source);
@@ -101,17 +83,6 @@ void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& d
       rods_.model(p), coupling::self_contact_settings(assets.coupling));
   self_contacts_.push_back(own.get());
   rods_.add_contact_source(p, std::move(own));
-}
-
-bool SceneContacts::lean_on_arm(const SceneAssets& assets, int p) {
-  if (assets.rods.solver != cosserat::SolverKind::direct) return false;
-  // How far a joint gives way is known in a step alone, and the first one moves it there.
-  if (giving_) giving_->hold_rigid(true);
-  cosserat::RodState state = rods_.state(p);
-  const bool rests = lean(rods_.model(p), state, world_.settings().gravity, *contacts_.back());
-  if (giving_) giving_->hold_rigid(false);
-  if (rests) rods_.set_state(p, state);
-  return rests;
 }
 
 void SceneContacts::add_blades(const SceneAssets& assets, int p) {
@@ -135,7 +106,6 @@ coupling::ColliderSource& SceneContacts::add_source(const SceneAssets& assets, i
   if (!giving_) {
     auto source = std::make_unique<coupling::ColliderSource>(colliders_, assets.coupling);
     coupling::ColliderSource& added = *source;
-    contacts_.push_back(source.get());
     rods_.add_contact_source(p, std::move(source));
     return added;
   }
@@ -144,7 +114,6 @@ coupling::ColliderSource& SceneContacts::add_source(const SceneAssets& assets, i
   auto source = std::make_unique<discrepancy::GivingSource>(
       colliders_, wide, assets.coupling.margin, robot_body, giving_->arm());
   with_giving_.push_back(source.get());
-  contacts_.push_back(source.get());
   rods_.add_contact_source(p, std::move(source));
   return with_giving_.back()->inner();
 }

@@ -45,8 +45,6 @@ class SceneContacts {
   void add_blades(const SceneAssets& assets, int plant);
   void add_sources(const SceneAssets& assets, int plant, Diagnostics& diagnostics);
   coupling::ColliderSource& add_source(const SceneAssets& assets, int plant);
-  /// Whether a plant whose stems overlap links came to rest against them.
-  bool lean_on_arm(const SceneAssets& assets, int plant);
   void act_back(const coupling::ContactReport& contacts);
   SourcePosition place_of(const coupling::Collider& collider) const;
   Pose link_pose(const coupling::Collider& collider) const;
@@ -59,7 +57,6 @@ class SceneContacts {
   GivingRobot* giving_;
   std::vector<coupling::ColliderSource*> sources_;       // of rods_
   std::vector<discrepancy::GivingSource*> with_giving_;  // likewise; empty where nothing gives way
-  std::vector<cosserat::ContactSource*> contacts_;       // one a plant: either of the two above
   std::vector<cosserat::SelfContact*> self_contacts_;
   std::vector<coupling::BladeSource*> blades_;
   std::unique_ptr<GripperStep> grip_;  // null without a gripper that its motor moves
