@@ -11,7 +11,7 @@
 #include "engine/io/key.h"
 #include "engine/world/scene_reader.h"
 #include "plugins/discrepancy/data/experiment_keys.h"
-#include "plugins/discrepancy/scene/scene_experiment_keys.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_keys.h"
 #include "plugins/discrepancy/select/verdict_keys.h"
 #include "plugins/plant/plant_file_keys.h"
 

@@ -17,6 +17,7 @@
 #include "plugins/discrepancy/procedure/diagnosis.h"
 #include "plugins/discrepancy/report/report.h"
 #include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/select/symptom_numbers.h"
 #include "plugins/plant/plant_file.h"
 

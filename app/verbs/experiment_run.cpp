@@ -13,6 +13,7 @@
 #include "engine/io/output_check.h"
 #include "engine/io/output_folder.h"
 #include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 
 namespace pedicel::app {
 

@@ -16,6 +16,7 @@
 #include "plugins/discrepancy/log_import/log_experiment.h"
 #include "plugins/discrepancy/log_import/log_proposal.h"
 #include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 
 namespace pedicel::app {
 

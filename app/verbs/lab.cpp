@@ -15,6 +15,7 @@
 #include "plugins/discrepancy/data/more_trials.h"
 #include "plugins/discrepancy/report/report.h"
 #include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 
 namespace pedicel::app {
 

@@ -16,6 +16,7 @@
 #include "engine/world/scene_reader.h"
 #include "engine/world/settings.h"
 #include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/simulate/simulator.h"
 #include "plugins/effects/registry/effect_definition.h"
 #include "plugins/plant/effect_reader.h"

@@ -21,8 +21,8 @@ void take_templates(const simulation::PlacedPlantFile& plant, const std::filesys
   for (const plant::PlantLeaf& leaf : plant.file.leaves) {
     const std::filesystem::path name = leaf.leaf_template + ".leaf.yaml";
     const std::filesystem::path to = folder / name;
-    if (std::filesystem::exists(plant.folder / name) && !std::filesystem::exists(to))
-      io::write_file_atomically(to, io::read_file(plant.folder / name));
+    if (std::filesystem::exists(plant.source.parent_path() / name) && !std::filesystem::exists(to))
+      io::write_file_atomically(to, io::read_file(plant.source.parent_path() / name));
   }
 }
 

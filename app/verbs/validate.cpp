@@ -17,6 +17,7 @@
 #include "engine/world/variation.h"
 #include "plugins/discrepancy/admission/admission.h"
 #include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/plant/leaf_template.h"
 #include "plugins/plant/plant_builder.h"
 #include "plugins/simulation/large_plant.h"

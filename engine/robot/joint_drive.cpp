@@ -28,7 +28,7 @@ constexpr double watched_speed = 50.0;
 JointDrive::JointDrive(const RobotDescription& robot, const KinematicModel& model,
                        const RobotSettings& settings, MultiBody& multibody)
     : model_(model), settings_(settings), multibody_(multibody), dynamics_(robot, model) {
-  if (multibody.joints() > 0) {  // Bullet keeps no constraint without links
+  if (multibody.joints() > 0 && settings.moves) {  // Bullet keeps no constraint without links
     rows_ = std::make_unique<JointRows>(&multibody.body(), lay_out(robot, model));
     multibody_.world().addMultiBodyConstraint(rows_.get());
   }

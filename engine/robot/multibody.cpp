@@ -27,8 +27,8 @@ MultiBody::MultiBody(const RobotDescription& robot, const KinematicModel& model,
   body_->setHasSelfCollision(false);
   body_->setCanSleep(false);
   body_->useRK4Integration(settings.rk4);
-  world_.addMultiBody(body_.get());
-  for (std::size_t g = 0; g < groups_.size(); ++g)
+  if (settings.moves) world_.addMultiBody(body_.get());
+  for (std::size_t g = 0; g < groups_.size() && settings.moves; ++g)
     add_collider(robot, settings, static_cast<int>(g));
   update_colliders();
 }

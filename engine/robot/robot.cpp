@@ -45,6 +45,7 @@ struct Robot::Impl {
 
   void place_joints(const Eigen::VectorXd& position, const Eigen::VectorXd& velocity);
   void read();
+  void add_effort(std::span<const LinkReaction> reactions, Eigen::VectorXd& effort) const;
   const Jacobian& jacobian(int link, const Vec3& point_W) const;
 
   RobotDescription description;
@@ -146,12 +147,15 @@ int Robot::link(const std::string& name) const {
 }
 
 void Robot::place_joint(int joint, double position, double velocity) {
-  Impl& robot = *impl_;
-  robot.q[robot.motors.checked(joint)] = position;
-  robot.qd[joint] = velocity;
-  robot.place_joints(robot.q, robot.qd);
-  robot.multibody.update_colliders();
-  robot.read();
+  impl_->q[impl_->motors.checked(joint)] = position;
+  impl_->qd[joint] = velocity;
+  place(impl_->q, impl_->qd);
+}
+
+void Robot::place(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
+  impl_->place_joints(q, qd);
+  if (impl_->settings.moves) impl_->multibody.update_colliders();
+  impl_->read();
 }
 
 void Robot::add_motor_load(int joint, double load) {
@@ -164,24 +168,31 @@ void Robot::add_external_force(int link, const Vec3& force_W, const Vec3& point_
   impl_->forces.push_back({link, force_W, point_W});
 }
 
+void Robot::Impl::add_effort(std::span<const LinkReaction> reactions,
+                             Eigen::VectorXd& effort) const {
+  for (const LinkReaction& reaction : reactions) {
+    const Jacobian& j = jacobian(reaction.link, reaction.point_W);
+    effort += j.topRows<3>().transpose() * reaction.force_W;
+    effort += j.bottomRows<3>().transpose() * reaction.moment_W;
+  }
+}
+
+Eigen::VectorXd Robot::effort_of(std::span<const LinkReaction> forces) const {
+  Eigen::VectorXd effort = Eigen::VectorXd::Zero(model().dofs());
+  impl_->add_effort(forces, effort);
+  return effort;
+}
+
 void Robot::add_reactions(std::span<const LinkReaction> reactions, double dt) {
   Impl& robot = *impl_;
   robot.mass.compute(robot.dynamics.mass_matrix(robot.q));
   robot.recoil.setZero();
-  for (const LinkReaction& reaction : reactions) {
-    const Jacobian& j = robot.jacobian(reaction.link, reaction.point_W);
-    robot.recoil += j.topRows<3>().transpose() * reaction.force_W;
-    robot.recoil += j.bottomRows<3>().transpose() * reaction.moment_W;
-  }
+  robot.add_effort(reactions, robot.recoil);
   robot.mass.solveInPlace(robot.recoil);
   robot.recoil *= dt * dt;
   robot.drive.expect_recoil(robot.recoil);
   if (reactions.empty()) return;
-  robot.q += robot.recoil;
-  robot.qd += robot.recoil / dt;
-  robot.place_joints(robot.q, robot.qd);
-  robot.multibody.update_colliders();
-  robot.read();
+  place(robot.q + robot.recoil, robot.qd + robot.recoil / dt);
 }
 
 double Robot::inverse_inertia(int a, const Vec3& point_a_W, int b, const Vec3& point_b_W) const {
@@ -192,12 +203,14 @@ double Robot::inverse_inertia(int a, const Vec3& point_a_W, int b, const Vec3& p
 }
 
 void Robot::begin_step(double dt) {
+  if (!impl_->settings.moves) return;
   for (const LinkForce& f : impl_->forces) impl_->multibody.add_force(f.link, f.force_W, f.point_W);
   impl_->drive.begin(impl_->motors.commands(), impl_->q, impl_->qd, impl_->forces, dt);
   impl_->forces.clear();
 }
 
 void Robot::end_step() {
+  if (!impl_->settings.moves) return;
   impl_->read();
   impl_->drive.end(impl_->torques);
 }

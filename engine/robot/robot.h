@@ -21,6 +21,7 @@ struct RobotSettings {
   bool fixed_base = true;   ///< false: the root floats
   bool rk4 = false;         ///< Runge-Kutta 4 for the free motion: for passive robots (README)
   bool collide = true;      ///< false: links touch nothing in Bullet
+  bool moves = true;        ///< false: no part of Bullet's world, it stands where place() puts it
   int collision_group = 1;  ///< Bullet's filter bits of the moving links (1: default filter)
   int collision_mask = -1;  ///< what they may touch
   double contact_friction = 0.8;  ///< 1, Coulomb coefficient of the links' surfaces in Bullet
@@ -91,6 +92,8 @@ class Robot {
   /// dt times that, as if backward Euler had known of them; motors reckon with the same again in
   /// the next step. To be called once every step, with none where there are none. Fixed bases only.
   void add_reactions(std::span<const LinkReaction> reactions, double dt);
+  /// N m or N, of all joints: J^T of forces on links, at the present positions.
+  Eigen::VectorXd effort_of(std::span<const LinkReaction> forces) const;
   /// 1/kg: the largest change of velocity of a point of link `a` for a unit impulse at a point of
   /// link `b`, world frame: |J_a M^-1 J_b^T|. Fixed bases only.
   double inverse_inertia(int a, const Vec3& point_a_W, int b, const Vec3& point_b_W) const;
@@ -98,6 +101,8 @@ class Robot {
   /// After end_step(): puts one joint elsewhere, with another velocity; its mimics follow, the
   /// others stay. For what was found after Bullet's part of the step (a grip).
   void place_joint(int joint, double position, double velocity);
+  /// The same of all joints: of recorded motion, or of links that give way.
+  void place(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
   /// After end_step(): a load (N m or N) that the joint's motor bears besides, for
   /// motor_torques() of this step.
   void add_motor_load(int joint, double load);

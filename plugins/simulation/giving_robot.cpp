@@ -1,7 +1,5 @@
 #include "plugins/simulation/giving_robot.h"
 
-#include "plugins/simulation/colliders.h"
-
 namespace pedicel::simulation {
 
 namespace {
@@ -41,7 +39,7 @@ GivingRobot::GivingRobot(RobotControl& robot, const discrepancy::SceneState& sta
 }
 
 void GivingRobot::go_back() {
-  place(q_, qd_);
+  robot_.robot().place(q_, qd_);
 }
 
 void GivingRobot::give_way() {
@@ -50,37 +48,20 @@ void GivingRobot::give_way() {
   joints_.begin_step(q_);
   arm_.compliance = joints_.compliance();
   const long dofs = q_.size();
-  place(q_ + joints_.deflection(), qd_ + joints_.row().segment(dofs, dofs).transpose());
+  robot_.robot().place(q_ + joints_.deflection(),
+                       qd_ + joints_.row().segment(dofs, dofs).transpose());
   arm_.links = robot_.link_poses();
 }
 
-void GivingRobot::act(const coupling::ContactReport& contacts,
-                      const coupling::ColliderSet& colliders) {
-  const robot::KinematicModel& model = robot_.robot().model();
-  Eigen::VectorXd effort = Eigen::VectorXd::Zero(q_.size());
-  robot::Jacobian jacobian;
-  for (int c = 0; c < colliders.size(); ++c) {
-    const coupling::ContactSum& sum = contacts.colliders()[static_cast<std::size_t>(c)];
-    const coupling::Collider& collider = colliders.collider(c);
-    if (collider.body != robot_body || sum.contacts == 0) continue;
-    const Pose& pose = arm_.links[static_cast<std::size_t>(collider.link)];
-    model.jacobian(arm_.links, collider.link, pose.inverse() * sum.place_W, jacobian);
-    Eigen::Matrix<double, 6, 1> push;
-    push << sum.force_W, sum.moment_W;
-    effort += jacobian.transpose() * push;
-  }
+void GivingRobot::act(const Eigen::VectorXd& effort) {
   joints_.end_step(effort);
   const long dofs = q_.size();
   const Eigen::VectorXd given = joints_.deflection(),
                         speed = joints_.row().segment(dofs, dofs).transpose();
-  place(q_ + given, qd_ + speed);
+  robot_.robot().place(q_ + given, qd_ + speed);
   robot_.drives().set_deflection(given);
   for (int i = 0; i < static_cast<int>(dofs); ++i)
     robot_.robot().add_motor_load(i, -(stiffness_ * given[i] + damping_ * speed[i]));
-}
-
-void GivingRobot::place(const Eigen::VectorXd& q, const Eigen::VectorXd& qd) {
-  for (int i = 0; i < static_cast<int>(q.size()); ++i) robot_.robot().place_joint(i, q[i], qd[i]);
 }
 
 }  // namespace pedicel::simulation

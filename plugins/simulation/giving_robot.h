@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "plugins/coupling/contact_report.h"
 #include "plugins/discrepancy/scene/giving_joints.h"
 #include "plugins/discrepancy/scene/giving_source.h"
 #include "plugins/simulation/robot_control.h"
@@ -23,8 +22,10 @@ class GivingRobot {
   world::Participant& after() { return after_; }
   /// Where they are, for the plants' contacts.
   const discrepancy::GivingArm& arm() const { return arm_; }
-  /// After the plants: what these exert on the links.
-  void act(const coupling::ContactReport& contacts, const coupling::ColliderSet& colliders);
+  /// After the plants: what these exert on the links, as J^T has it at the joints (N m).
+  void act(const Eigen::VectorXd& effort);
+  /// How far joints gave way, how fast, and its change: rad, rad/s, rad/s2, one after another.
+  Eigen::RowVectorXd row() const { return joints_.row(); }
 
  private:
   class Part : public world::Participant {
@@ -42,7 +43,6 @@ class GivingRobot {
 
   void go_back();
   void give_way();
-  void place(const Eigen::VectorXd& q, const Eigen::VectorXd& qd);
 
   RobotControl& robot_;
   double stiffness_, damping_;  // N m/rad, N m s/rad

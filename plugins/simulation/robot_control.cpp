@@ -7,8 +7,9 @@ namespace pedicel::simulation {
 
 namespace {
 
-robot::RobotSettings settings_of(const world::SceneRobot& scene) {
+robot::RobotSettings settings_of(const world::SceneRobot& scene, bool moves) {
   robot::RobotSettings settings;
+  settings.moves = moves;
   settings.base_pose = scene.base;
   return settings;
 }
@@ -37,11 +38,12 @@ Eigen::VectorXd manual_speed(const robot::KinematicModel& model,
 }
 
 RobotControl::RobotControl(const world::SceneRobot& scene,
-                           const robot::RobotDescription& description, world::SimWorld& world)
+                           const robot::RobotDescription& description, world::SimWorld& world,
+                           bool moves)
     : name_(scene.name),
       mode_(scene.control),
-      robot_(description, settings_of(scene), world.bullet()),
-      reader_(robot_),
+      robot_(description, settings_of(scene, moves), world.bullet()),
+      reader_(*this),
       tool_link_(tool_of(scene, description)),
       tool_offset_(scene.tool_offset) {
   q_ = robot_.model().neutral();
@@ -68,7 +70,9 @@ void RobotControl::act(world::SimWorld& world, world::WorldReport&) {
   start_of_step_ = robot_.positions();
   // A goal by hand goes before the program. Where neither is there, q_ holds what was told last,
   // and the motors go on to hold it.
-  if (goal_)
+  if (readings_)
+    readings_(world.time() + world.dt(), q_, qd_);
+  else if (goal_)
     approach_goal(world.dt());
   else if (!program_.empty())
     // A target is where the joint shall be at the end of this step.
@@ -116,6 +120,13 @@ Eigen::VectorXd RobotControl::goal() const {
   return q;
 }
 
+void RobotControl::lead_by_readings(JointReadings readings) {
+  readings_ = std::move(readings);
+  readings_(0.0, q_, qd_);
+  robot_.reset(q_, qd_);
+  start_of_step_ = q_;
+}
+
 void RobotControl::approach_goal(double dt) {
   for (int i = 0; i < q_.size(); ++i) {
     // Each joint by itself. The speed goes along as the target's rate: position control takes it
@@ -127,16 +138,19 @@ void RobotControl::approach_goal(double dt) {
 }
 
 void RobotControl::Reader::act(world::SimWorld&, world::WorldReport& report) {
+  robot::Robot& robot = control_.robot_;
   // Read out as soon as Bullet is done: plants need the links' new poses.
-  robot_.end_step();
-  const Eigen::VectorXd& q = robot_.positions();
+  robot.end_step();
+  // Motors get it there but for what pushes at it; what was recorded is where it was.
+  if (control_.readings_) robot.place(control_.q_, control_.qd_);
+  const Eigen::VectorXd& q = robot.positions();
   // The world stops on this, so the joint is named: a position that is no number spreads to all
   // links in one step.
   if (q.allFinite()) return;
   report.errors |= world::robot_not_finite;
   for (int i = 0; i < q.size() && report.culprit.empty(); ++i)
     if (!std::isfinite(q[i]))
-      report.culprit = robot_.description().name + "/" + robot_.model().joint_names()[i];
+      report.culprit = robot.description().name + "/" + robot.model().joint_names()[i];
   report.cause = "the joint's position is not a finite number";
 }
 

@@ -17,12 +17,24 @@
 
 namespace pedicel::simulation {
 
+/// Where recorded joints are at a time (s): of all, rad or m, and rad/s or m/s.
+using JointReadings = std::function<void(double time, Eigen::VectorXd& q, Eigen::VectorXd& qd)>;
+
+/// A link takes hold of an organ, or lets go of it.
+struct Grasp {
+  double time = 0.0;  ///< s
+  bool takes = true;  ///< false: lets go
+  std::string what;   ///< a fruit or a curve of any plant
+  int link = 0;       ///< of the robot, that takes it
+};
+
 /// The scene's robot and the program it follows.
 class RobotControl : public world::Participant {
  public:
-  /// Throws UsageError where the description does not fit the world (nothing moves).
+  /// `moves`: as robot::RobotSettings has it. Throws UsageError where the description does not fit
+  /// the world (nothing moves).
   RobotControl(const world::SceneRobot& scene, const robot::RobotDescription& description,
-               world::SimWorld& world);
+               world::SimWorld& world, bool moves = true);
 
   world::Phase phase() const override { return world::Phase::control; }
   /// Sets the program's targets for the end of this step and hands them to Bullet.
@@ -67,6 +79,10 @@ class RobotControl : public world::Participant {
   /// long as nothing else is asked for.
   void lead_by_motors();
   bool led_by_motors() const { return led_; }
+  /// From now on all joints are where the readings say at the end of each step, whatever acts on
+  /// them; at once, too.
+  void lead_by_readings(JointReadings readings);
+  bool led_by_readings() const { return static_cast<bool>(readings_); }
   /// Where it is told to go in the end (rad or m); led by its motors, where it is.
   Eigen::VectorXd goal() const;
   bool follows_program() const { return !program_.empty() && !goal_; }
@@ -78,12 +94,12 @@ class RobotControl : public world::Participant {
  private:
   class Reader : public world::Participant {
    public:
-    explicit Reader(robot::Robot& robot) : robot_(robot) {}
+    explicit Reader(RobotControl& control) : control_(control) {}
     world::Phase phase() const override { return world::Phase::plants; }
     void act(world::SimWorld& world, world::WorldReport& report) override;
 
    private:
-    robot::Robot& robot_;
+    RobotControl& control_;
   };
 
   std::string name_, mode_;
@@ -99,13 +115,16 @@ class RobotControl : public world::Participant {
   Vec3 tool_offset_;
   Eigen::VectorXd q_, qd_, start_of_step_;
   DriveError drives_;
+  JointReadings readings_;  // none: it is led otherwise
 };
 
-/// What a scene's effects change of how its robot is led.
+/// What leads a scene's robot beside its program, and what effects change of it.
 struct LedRobot {
   const robot::RobotDescription* believed = nullptr;  ///< that programs are planned for; null: it
   double log_delay = 0.0;  ///< s: a row of its trajectory's file at t holds what was at t - delay
   double lag = 0.0;        ///< s, DriveError::set_lag()
+  JointReadings readings;  ///< in place of its program; none: the program
+  bool moves = true;       ///< robot::RobotSettings
 };
 
 /// How fast each joint goes where it is sent by hand, rad/s or m/s.

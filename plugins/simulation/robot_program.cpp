@@ -129,7 +129,11 @@ std::unique_ptr<RobotControl> make_robot_control(const world::SceneRobot& scene,
                                                  world::SimWorld& world, const FindPlace& find,
                                                  const LedRobot& led, Diagnostics& diagnostics) {
   const int before = diagnostics.error_count();
-  auto control = std::make_unique<RobotControl>(scene, description, world);
+  auto control = std::make_unique<RobotControl>(scene, description, world, led.moves);
+  if (led.readings) {
+    control->lead_by_readings(led.readings);
+    return control;
+  }
   control->drives().set_lag(led.lag);
   plan(scene, *control, find, led, diagnostics);
   if (diagnostics.error_count() > before) return nullptr;

@@ -12,8 +12,13 @@ namespace pedicel::simulation {
 
 SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
                              cosserat::RodSystem& rods, RobotControl* robot, GivingRobot* giving,
-                             Diagnostics& diagnostics)
-    : scene_(assets.scene), world_(world), rods_(rods), robot_(robot), giving_(giving) {
+                             HeldOrgans* held, Diagnostics& diagnostics)
+    : scene_(assets.scene),
+      world_(world),
+      rods_(rods),
+      robot_(robot),
+      giving_(giving),
+      held_(held) {
   // The grip marks the colliders that it presses, before the sources look at what touches.
   add_colliders(assets);
   add_grip(assets);
@@ -34,17 +39,30 @@ SceneContacts::SceneContacts(const SceneAssets& assets, world::SimWorld& world,
     reaction_ = std::make_unique<Reaction>(world_, all && !giving_ ? robot_ : nullptr, colliders_,
                                            all ? 0 : world_.body_count());
   if (all && grip_) grip_->pass_on(plant_step_->contacts());
-  if (reaction_ || giving_)
+  if (reaction_ || giving_ || assets.readings)
     plant_step_->set_reaction(
         [this](const coupling::ContactReport& contacts) { act_back(contacts); });
 }
 
 void SceneContacts::act_back(const coupling::ContactReport& contacts) {
   if (reaction_) reaction_->act(contacts);
+  if (giving_ || (robot_ && robot_->led_by_readings())) sum_up(contacts);
   if (!giving_) return;
   for (int p = 0; p < rods_.size(); ++p)
     with_giving_[static_cast<std::size_t>(p)]->remember(rods_.contact_forces(p));
-  giving_->act(contacts, colliders_);
+  giving_->act(effort_);
+}
+
+void SceneContacts::sum_up(const coupling::ContactReport& contacts) {
+  link_forces_.clear();
+  for (int c = 0; c < colliders_.size(); ++c) {
+    const coupling::ContactSum& sum = contacts.colliders()[static_cast<std::size_t>(c)];
+    const coupling::Collider& collider = colliders_.collider(c);
+    if (collider.body == robot_body && sum.contacts > 0)
+      link_forces_.push_back({collider.link, sum.force_W, sum.place_W, sum.moment_W});
+  }
+  if (held_) held_->add_forces(world_, link_forces_);
+  effort_ = robot_->robot().effort_of(link_forces_);
 }
 
 void SceneContacts::add_colliders(const SceneAssets& assets) {
@@ -62,16 +80,21 @@ void SceneContacts::add_colliders(const SceneAssets& assets) {
 // A gripper stands where its motor balances what it holds. Only the direct solver tells how far a
 // plant gives way to it, and under torque control there is no motor that presses.
 void SceneContacts::add_grip(const SceneAssets& assets) {
-  const bool grips = robot_ && robot_->gripper() >= 0 && scene_.robot->control != "torque" &&
+  const bool grips = robot_ && !robot_->led_by_readings() && robot_->gripper() >= 0 &&
+                     scene_.robot->control != "torque" &&
                      assets.rods.solver == cosserat::SolverKind::direct;
   if (grips) grip_ = std::make_unique<GripperStep>(*robot_, colliders_);
 }
 
 void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& diagnostics) {
+  const std::vector<bool> leaning = lean_on_robot(assets, p);
   coupling::ColliderSource& source = add_source(assets, p);
   // A plant drawn through a link would be shot out in the first step.
-  const std::vector<coupling::Overlap> overlaps =
-      source.ignore_touching(rods_.model(p), rods_.state(p));
+  const std::vector<coupling::Overlap> overlaps = source.ignore_touching(
+      rods_.model(p), rods_.state(p), [&](int shape, int collider) {
+        return leaning.empty() || !leaning[static_cast<std::size_t>(shape)] ||
+               colliders_.collider(collider).body != robot_body;
+      });
   for (const StartOverlap& overlap : start_overlaps(rods_.model(p), colliders_, overlaps))
     diagnostics.warning(place_of(colliders_.collider(overlap.collider)), overlap.text);
   sources_.push_back(&source);
@@ -83,6 +106,28 @@ void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& d
       rods_.model(p), coupling::self_contact_settings(assets.coupling));
   self_contacts_.push_back(own.get());
   rods_.add_contact_source(p, std::move(own));
+}
+
+std::vector<bool> SceneContacts::lean_on_robot(const SceneAssets& assets, int p) {
+  if (!robot_ || assets.rods.solver != cosserat::SolverKind::direct) return {};
+  cosserat::RodState state = rods_.state(p);
+  coupling::ColliderSource source(colliders_, assets.coupling);
+  const auto is_robot = [this](int c) { return colliders_.collider(c).body == robot_body; };
+  const auto is_finger = [this](int c) {
+    return robot_->gripper() >= 0 &&
+           robot_->robot().model().moves(robot_->gripper(), colliders_.collider(c).link);
+  };
+  const std::vector<bool> leaning =
+      leaning_stems(rods_.model(p), source.overlaps(rods_.model(p), state, assets.coupling.margin),
+                    is_robot, is_finger);
+  if (leaning.empty()) return {};
+  source.ignore_touching(rods_.model(p), state, [&](int shape, int collider) {
+    return !leaning[static_cast<std::size_t>(shape)] || !is_robot(collider);
+  });
+  // Where it finds no rest the two do not touch.
+  if (!lean(rods_.model(p), state, scene_.gravity, source)) return {};
+  rods_.set_state(p, state);
+  return leaning;
 }
 
 void SceneContacts::add_blades(const SceneAssets& assets, int p) {

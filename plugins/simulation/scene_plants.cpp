@@ -88,7 +88,7 @@ class Builder {
     const std::optional<plant::PlantFile> file = file_of(wanted);
     for (int i = 0; file && i < wanted.repeat[0] * wanted.repeat[1]; ++i) {
       files.push_back(of_grid(*file, wanted, i));
-      files.back().folder = source_of(wanted).parent_path();
+      files.back().source = source_of(wanted);
     }
   }
 

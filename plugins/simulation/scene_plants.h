@@ -21,7 +21,7 @@ struct ScenePlantModel {
 struct PlacedPlantFile {
   plant::PlantFile file;
   Pose pose;                     ///< X_WP
-  std::filesystem::path folder;  ///< of the file that it was read from
+  std::filesystem::path source;  ///< the file that it was read from
 };
 
 /// The file that a scene's plant is read from: an absent optional one's fallback, which may be

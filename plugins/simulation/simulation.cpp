@@ -1,8 +1,11 @@
 #include "plugins/simulation/simulation.h"
 
+#include <algorithm>
+
 #include "engine/core/check.h"
 #include "engine/world/scene_writer.h"
 #include "plugins/simulation/giving_robot.h"
+#include "plugins/simulation/held_organs.h"
 #include "plugins/simulation/place.h"
 #include "plugins/simulation/scene_assets.h"
 #include "plugins/simulation/scene_contacts.h"
@@ -110,7 +113,7 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   // one only then.
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   contacts_ = std::make_unique<SceneContacts>(*assets_, world_, *rods_, robot_.get(), giving_.get(),
-                                              diagnostics);
+                                              held_.get(), diagnostics);
   // Set now, as it takes contacts, which take everything above.
   cutting_->set_released([this](int plant, int body) { contacts_->add_fallen(plant, body); });
   measurements_ = std::make_unique<Measurements>(*rods_, plant_step(), colliders());
@@ -131,9 +134,12 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   // Colliders, plants and reaction, in their own order. The robot's reader has joined before, so
   // that links are where Bullet left them.
   contacts_->join();
-  // Observers last: they see the step when all have moved.
-  world_.add(*measurements_);
-  world_.add(*gentleness_);
+  // Observers last: they see the step when all have moved. Who plays what was recorded looks at the
+  // plants himself.
+  if (!assets_->readings) {
+    world_.add(*measurements_);
+    world_.add(*gentleness_);
+  }
   if (wrenches_) world_.add(*wrenches_);
   // Errors have thrown above, so warnings are all that is left.
   for (const Diagnostic& warning : diagnostics.all()) notes_.push_back(to_string(warning));
@@ -166,7 +172,11 @@ void Simulation::add_plants(Diagnostics& diagnostics) {
     diagnostics.error({scene_.file.string(), 0, 0},
                       "coupling.plant_contact is 1 with the position-based solver: expected the "
                       "direct solver, which alone lets plants touch each other");
-  for (const cosserat::RodModel& model : assets_->models) rods_->add_plant(model);
+  for (const cosserat::RodModel& model : assets_->models) {
+    const int plant = rods_->add_plant(model);
+    if (!assets_->states.empty())
+      rods_->set_state(plant, assets_->states[static_cast<std::size_t>(plant)]);
+  }
 }
 
 void Simulation::add_bodies() {
@@ -180,8 +190,15 @@ void Simulation::add_robot(Diagnostics& diagnostics) {
   LedRobot led;
   if (assets_->effects) {
     const discrepancy::SceneState& state = assets_->effects->state;
-    led = {&*assets_->believed, state.robot_delay, state.tracking_lag};
+    led.believed = assets_->believed ? &*assets_->believed : nullptr;
+    led.log_delay = state.robot_delay;
+    led.lag = state.tracking_lag;
   }
+  led.readings = assets_->readings;
+  // Where nothing loose could feel it, Bullet need not know of a robot that is placed anyway.
+  led.moves = !led.readings || std::ranges::any_of(scene_.bodies, [](const auto& body) {
+    return body.mass > 0.0;
+  });
   robot_ = make_robot_control(*scene_.robot, *assets_->robot, world_, find_place, led, diagnostics);
   if (!robot_) return;
   const bool gives = assets_->effects && assets_->effects->state.joint_stiffness > 0.0;
@@ -194,6 +211,10 @@ void Simulation::add_robot(Diagnostics& diagnostics) {
   // one phase.
   world_.add(robot_->reader());
   if (gives) world_.add(giving_->after());
+  if (assets_->grasps.empty()) return;
+  held_ = std::make_unique<HeldOrgans>(assets_->grasps, *rods_, robot_->robot());
+  world_.add(held_->before());
+  world_.add(held_->carry());
 }
 
 const std::vector<PlantInfo>& Simulation::plants() const {

@@ -27,6 +27,7 @@ namespace pedicel::simulation {
 
 struct SceneAssets;
 class GivingRobot;
+class HeldOrgans;
 class SceneContacts;
 class WrenchSensor;
 class WrenchSensors;
@@ -67,6 +68,10 @@ class Simulation {
   Measurements& measurements() { return *measurements_; }
   /// How gently its plants were handled so far.
   const Gentleness& gentleness() const { return *gentleness_; }
+  /// What plants touch, and what they exert on the robot.
+  const SceneContacts& contacts() const { return *contacts_; }
+  /// Null where no joint gives way.
+  const GivingRobot* giving() const { return giving_.get(); }
   /// The force sensors of the scene, in its order.
   const std::vector<WrenchSensor>& wrenches() const;
   /// Null where the scene has no robot.
@@ -90,6 +95,7 @@ class Simulation {
   std::unique_ptr<cosserat::RodSystem> rods_;
   std::unique_ptr<RobotControl> robot_;
   std::unique_ptr<GivingRobot> giving_;  // null: no joint gives way
+  std::unique_ptr<HeldOrgans> held_;     // null: what it holds was not recorded
   std::unique_ptr<SceneLoads> loads_;
   std::unique_ptr<SceneTies> ties_;
   std::unique_ptr<Cutting> cutting_;

@@ -5,6 +5,7 @@
 #include "app/view/measured_marks.h"
 #include "app/window/measured_image.h"
 #include "plugins/discrepancy/scene/camera.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
 #include "tests/app/cut_text.h"
 #include "tests/app/desk.h"
 #include "tests/app/words.h"

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "plugins/discrepancy/scene/scene_state.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "tests/fuzz/reading.h"
 
 using namespace pedicel;

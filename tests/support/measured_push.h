@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
 #include "plugins/discrepancy/scene_predict/scene_observe.h"
 #include "tests/unit/discrepancy_scene/arm_at_stem.h"
 

@@ -60,7 +60,7 @@ RULES = [
          "engine/world/scene_expect.cpp", "engine/robot/waypoint_reader.cpp"), READER, 90),
     Rule("experiment.md", ("plugins/discrepancy/data/experiment_reader.cpp",
          "plugins/discrepancy/data/drive_reader.cpp"), READER, 33, end=r"^  }$"),
-    Rule("scene_experiment.md", ("plugins/discrepancy/scene/scene_experiment_reader.cpp",), (*READER, DEVIATION),
+    Rule("scene_experiment.md", ("plugins/discrepancy/scene_files/scene_experiment_reader.cpp",), (*READER, DEVIATION),
          32, end=r"^  }$", leave_out=("pixels_", "wrench_")),
     Rule("scene_experiment.md", ("plugins/discrepancy/scene/effects/*.cpp",), (EFFECT,), 17, end=""),
     Rule("logs.md", ("plugins/discrepancy/log_import/log_map.cpp",), READER, 27),

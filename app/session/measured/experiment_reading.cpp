@@ -1,6 +1,7 @@
 #include "app/session/measured/experiment_reading.h"
 
 #include "plugins/discrepancy/data/experiment_progress.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 
 namespace pedicel::app {
 

@@ -1,8 +1,10 @@
 #include "plugins/discrepancy/log_import/log_experiment.h"
 
+#include <algorithm>
+
 #include "engine/io/atomic_file.h"
 #include "engine/io/csv.h"
-#include "plugins/discrepancy/scene/scene_tables.h"
+#include "plugins/discrepancy/scene_files/scene_tables.h"
 
 namespace pedicel::discrepancy {
 
@@ -36,6 +38,7 @@ void write_tables(const fs::path& folder, const LogMap& map, const LogTrial& tri
 std::string experiment_text(const LogMap& map, const fs::path& scene,
                             const std::vector<LogTrial>& trials) {
   std::string text = "format: pedicel-experiment\nversion: 1\n";
+  if (std::ranges::all_of(trials, &LogTrial::is_run)) text += "source: run\n";
   if (!map.title.empty()) text += "title: " + yaml_word(map.title) + "\n";
   text += "scene: " + yaml_word(scene.string()) + "\n";
   if (!map.markers.empty()) text += "markers:\n";

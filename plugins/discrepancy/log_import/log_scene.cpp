@@ -5,9 +5,10 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/common_folder.h"
 #include "engine/robot/kinematics.h"
-#include "engine/urdf/urdf_reader.h"
 #include "engine/world/scene_reader.h"
 #include "plugins/plant/leaf_template.h"
+#include "plugins/simulation/robot_control.h"
+#include "plugins/simulation/scene_plants.h"
 
 namespace pedicel::discrepancy {
 
@@ -22,9 +23,7 @@ void add_file(std::vector<fs::path>& files, const fs::path& file) {
 
 void read_robot(LogScene& out, Diagnostics& diagnostics) {
   const world::SceneRobot& robot = *out.scene.robot;
-  robot::PackagePaths paths = robot::PackagePaths::from_environment();
-  for (const auto& [name, path] : robot.packages) paths.add(name + "=" + path.string());
-  auto description = robot::read_urdf(robot.file, paths, diagnostics);
+  auto description = simulation::read_robot(robot, {}, diagnostics);
   if (!description) return;
   out.robot = std::move(*description);
   out.joints = robot::KinematicModel(out.robot).joint_names();
@@ -37,20 +36,16 @@ void read_robot(LogScene& out, Diagnostics& diagnostics) {
   }
 }
 
-void read_plant(LogScene& out, const world::ScenePlant& plant, Diagnostics& diagnostics) {
-  if (plant.source != world::ScenePlant::Source::file)
-    return diagnostics.error(plant.where, "plant " + in_quotes(plant.name) +
-                                              ", expected a plant file: an experiment needs one");
-  auto file = plant::read_plant_file(plant.file, diagnostics);
-  if (!file) return;
-  file->name = plant.name;
-  add_file(out.files, plant.file);
-  // What is shipped with the program is found without being carried along.
-  for (const plant::PlantLeaf& leaf : file->leaves)
-    if (const auto found =
-            plant::find_leaf_template(leaf.leaf_template, {fs::absolute(plant.file).parent_path()}))
-      add_file(out.files, *found);
-  out.plants.push_back(std::move(*file));
+void read_plants(LogScene& out, Diagnostics& diagnostics) {
+  for (simulation::PlacedPlantFile& plant : simulation::plant_files(out.scene, {}, diagnostics)) {
+    add_file(out.files, plant.source);
+    // What is shipped with the program is found without being carried along.
+    for (const plant::PlantLeaf& leaf : plant.file.leaves)
+      if (const auto found = plant::find_leaf_template(
+              leaf.leaf_template, {fs::absolute(plant.source).parent_path()}))
+        add_file(out.files, *found);
+    out.plants.push_back(std::move(plant.file));
+  }
 }
 
 }  // namespace
@@ -67,7 +62,7 @@ LogScene read_log_scene(const fs::path& file) {
       diagnostics.error({file.string()},
                         "the scene has no robot, expected one whose joints were "
                         "recorded");
-    for (const world::ScenePlant& plant : out.scene.plants) read_plant(out, plant, diagnostics);
+    read_plants(out, diagnostics);
     if (out.scene.plants.empty())
       diagnostics.error({file.string()}, "the scene has no plants, expected at least one");
   }

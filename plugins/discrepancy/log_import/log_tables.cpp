@@ -20,6 +20,7 @@ class TrialMaker {
 
   LogTrial make() {
     out_.name = wanted_.name;
+    out_.is_run = log_.simulated;
     out_.use = wanted_.use;
     out_.text = wanted_.text;
     out_.clock = wanted_.clock;

@@ -10,6 +10,7 @@ namespace pedicel::discrepancy {
 /// A log as one trial's tables; times count from the trial's begin.
 struct LogTrial {
   std::string name, use, text;
+  bool is_run = false;  ///< of a simulation of Pedicel
   double clock = 0.0;  ///< s
   std::vector<std::string> joint_names, command_names, torque_names;
   Samples joints, commands, torques;  ///< rad or m; N m or N

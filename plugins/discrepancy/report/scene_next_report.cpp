@@ -4,7 +4,8 @@
 
 #include "engine/io/atomic_file.h"
 #include "engine/plots/svg_plot.h"
-#include "plugins/discrepancy/scene/scene_tables.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
+#include "plugins/discrepancy/scene_files/scene_tables.h"
 #include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {

@@ -1,8 +1,6 @@
 #include "plugins/discrepancy/scene/arm.h"
 
-#include "engine/geometry/mesh_distance.h"
 #include "engine/robot/inertial_sum.h"
-#include "engine/robot/shape_field.h"
 #include "plugins/discrepancy/scene/state_changes.h"
 
 namespace pedicel::discrepancy {
@@ -86,19 +84,6 @@ Eigen::Matrix<double, 6, 1> Arm::own_wrench(int link, const JointPath::Point& mo
   Eigen::Matrix<double, 6, 1> wrench;
   wrench << poses[own].rotation.conjugate() * force, poses[own].rotation.conjugate() * moment;
   return wrench;
-}
-
-LinkFields link_fields(const robot::RobotDescription& robot) {
-  LinkFields fields;
-  for (const robot::Link& link : robot.links) {
-    fields.emplace_back();
-    for (const robot::Collision& collision : link.collisions) {
-      auto field = robot::shape_field(collision.geometry);
-      if (!field) field = std::make_shared<geometry::MeshDistance>(*collision.geometry.mesh);
-      fields.back().push_back(std::move(field));
-    }
-  }
-  return fields;
 }
 
 }  // namespace pedicel::discrepancy

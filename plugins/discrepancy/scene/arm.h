@@ -40,9 +40,4 @@ class Arm {
 /// The link that the scene calls the tool, else one called "tool", else the last.
 int tool_link(const world::SceneRobot& scene, const robot::RobotDescription& robot);
 
-/// A colliders' set of a scene: ground, resting bodies and the links of an arm at `X_WL`. `fields`
-/// of its links are shared by all variants.
-using LinkFields = std::vector<std::vector<std::shared_ptr<const geometry::SignedDistance>>>;
-LinkFields link_fields(const robot::RobotDescription& robot);
-
 }  // namespace pedicel::discrepancy

@@ -25,28 +25,6 @@ GivingSource::GivingSource(const coupling::ColliderSet& colliders,
   inner_.share_later();
 }
 
-bool GivingSource::is_arm_at_stem(const cosserat::RodModel& model, int shape, int collider) const {
-  return colliders_.collider(collider).body == body_ &&
-         model.shapes[static_cast<std::size_t>(shape)].fruit < 0;
-}
-
-bool GivingSource::overlaps_arm(const cosserat::RodModel& model, const cosserat::RodState& state) {
-  // A step without motion, so that nothing is found by its way.
-  inner_.begin_step(model, state, 0.0);
-  std::vector<cosserat::ContactPoint> found;
-  inner_.find(model, state, 0.0, found);
-  return std::ranges::any_of(found, [&](const cosserat::ContactPoint& point) {
-    return point.gap <= margin_ && is_arm_at_stem(model, point.shape, point.collider);
-  });
-}
-
-void GivingSource::ignore_touching(const cosserat::RodModel& model,
-                                   const cosserat::RodState& state) {
-  inner_.ignore_touching(model, state, [&](int shape, int collider) {
-    return !is_arm_at_stem(model, shape, collider);
-  });
-}
-
 void GivingSource::find(const cosserat::RodModel& model, const cosserat::RodState& state, double dt,
                         std::vector<cosserat::ContactPoint>& found) {
   const std::size_t first = found.size();

@@ -35,10 +35,6 @@ class GivingSource : public cosserat::ContactSource {
   GivingSource(const coupling::ColliderSet& colliders, const coupling::CouplingSettings& settings,
                double margin, int body, const GivingArm& arm);
 
-  /// Whether a link of the arm overlaps a stem in this state.
-  bool overlaps_arm(const cosserat::RodModel& model, const cosserat::RodState& state);
-  /// Leaves out for good what else overlaps: supports, and fruits that a tool has taken.
-  void ignore_touching(const cosserat::RodModel& model, const cosserat::RodState& state);
   /// As if nothing gave way.
   coupling::ColliderSource& inner() { return inner_; }
   void cover(double from, double to) override {
@@ -55,7 +51,6 @@ class GivingSource : public cosserat::ContactSource {
   void remember(std::span<const cosserat::ContactForce> forces);
 
  private:
-  bool is_arm_at_stem(const cosserat::RodModel& model, int shape, int collider) const;
   void give_way(const cosserat::RodModel& model, const cosserat::RodState& state,
                 cosserat::ContactPoint& point) const;
 

@@ -113,24 +113,11 @@ struct SceneExperiment {
   std::vector<plant::Effect> scene_effects;  ///< known in every trial: of the scene's file
   std::vector<plant::Effect> effects;        ///< likewise, of the experiment's
   std::vector<SceneTrial> trials;
+  /// A log of a run of the scene by this program, so that step, mesh and contact are the run's.
+  bool is_run = false;
 
   int plant_index(const std::string& name) const;  ///< -1 where there is none
 };
-
-/// True where the file is an experiment with `scene:`; false where it is none, or unreadable.
-bool is_scene_experiment(const std::filesystem::path& path);
-
-/// Reads an experiment folder (or its experiment.yaml) whose model is a scene. Every fault goes to
-/// `diagnostics` with file, line and column; nothing comes back where there is one. `scene`: the
-/// file of another scene to take in place of its own; what the experiment names must be there, too.
-std::optional<SceneExperiment> read_scene_experiment(const std::filesystem::path& path,
-                                                     Diagnostics& diagnostics,
-                                                     const std::filesystem::path& scene = {});
-
-/// The trials' tables and experiment.yaml, as a folder that read_scene_experiment() reads back; the
-/// scene's own files are copied along: below `model` where they are not all below the scene's
-/// folder. Throws io::WriteError, and UsageError where the scene's path leads out of the folder.
-void write_scene_experiment(const std::filesystem::path& folder, const SceneExperiment& experiment);
 
 /// Columns of joints by their degrees of freedom: names in the order of the robot's model.
 std::vector<std::string> joint_names(const robot::RobotDescription& robot);

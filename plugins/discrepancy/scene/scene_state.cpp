@@ -14,7 +14,7 @@ SceneState nominal_state(const SceneExperiment& experiment) {
   SceneState state;
   // What nobody states is hard: a stem that sticks to a finger holds it by its axial stiffness, and
   // a softer contact lets it creep.
-  state.coupling.contact_stiffness = hard;
+  if (!experiment.is_run) state.coupling.contact_stiffness = hard;
   Diagnostics diagnostics;
   int direction = state.coupling.two_way ? 1 : 0;
   world::apply_settings(experiment.scene.coupling, "coupling",

@@ -53,7 +53,7 @@ class WayCheck {
   void add_plants(const SceneExperiment& experiment, const SceneTrial& trial);
 
   Arm arm_;
-  LinkFields fields_;
+  simulation::ShapeFields fields_;
   std::vector<Point> plants_;
   std::vector<Box> bodies_;  // those that the measured way stays out of
   Eigen::VectorXd lower_, upper_, speed_;

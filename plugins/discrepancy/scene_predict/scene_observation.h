@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "plugins/discrepancy/scene_predict/scene_motion.h"
+#include "plugins/discrepancy/scene_predict/trial_simulation.h"
 
 namespace pedicel::discrepancy {
 

@@ -18,6 +18,7 @@ namespace {
 constexpr double far_below = 100.0;    // m: there no arm reaches, and a plant moves as anywhere
 constexpr std::size_t widest = 8;      // plants side by side: the solver's lanes
 constexpr std::size_t most_kept = 64;  // motions, some 2 MB each
+constexpr double exactly = 1.0e-10;    // rad or m, of readings that have no noise
 
 using Makers = std::vector<std::unique_ptr<PlantMaker>>;
 
@@ -30,11 +31,28 @@ Makers makers_of(const SceneExperiment& experiment, const SceneTrial& trial,
     plant::BuildOptions options;
     options.pose = moved == trial.poses.end() ? plant.pose : moved->second;
     options.gravity = experiment.scene.gravity;
+    options.leaf_folders.push_back(plant.path.parent_path());
     const double distance = std::min(numerics.distance, plant.file.distance);
-    options.junction = numerics.junction * distance;
+    if (!numerics.as_run) options.junction = numerics.junction * distance;
     makers.push_back(std::make_unique<PlantMaker>(plant.file, distance, options));
   }
   return makers;
+}
+
+// A log of a run is predicted as it was run.
+SceneNumerics numerics_of(const SceneExperiment& experiment, SceneNumerics numerics) {
+  if (!experiment.is_run) return numerics;
+  numerics.as_run = true;
+  numerics.dt = experiment.scene.dt;
+  numerics.distance = std::numeric_limits<double>::infinity();  // the plant file's
+  return numerics;
+}
+
+simulation::ShapeFields fields_for(const SceneExperiment& experiment,
+                                   const SceneNumerics& numerics) {
+  std::vector<std::string> notes;  // about meshes that are large: nothing for an experiment
+  return numerics.as_run ? simulation::fields_of(experiment.robot, notes)
+                         : simulation::exact_fields_of(experiment.robot);
 }
 
 // What the motion depends on: requests with the same share one simulation. `moves`: what acts on
@@ -81,7 +99,9 @@ JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, in
   for (const auto& [joint, value] : experiment.scene.robot->joints)
     if (const int dof = model.joint_index(joint); dof >= 0) start[dof] = value;
   if (trial.follows_commands) return {};
-  const double deviation = experiment.noise.joint_std.value_or(0.0);
+  // A run's log says where its joints were.
+  const double deviation =
+      experiment.is_run ? exactly : experiment.noise.joint_std.value_or(0.0);
   if (draw == 0) return smooth_readings(trial.joints, deviation).spread(trial.joint_columns, start);
   Samples other = trial.joints;
   const Eigen::VectorXd scatter = smooth_readings(trial.joints, deviation).scatter();
@@ -98,14 +118,14 @@ struct SceneSimulator::Impl {
   Impl(const SceneExperiment& given, const SceneNumerics& how, int threads,
        const std::atomic<bool>* caller)
       : experiment(given),
-        numerics(how),
-        fields(link_fields(given.robot)),
+        numerics(numerics_of(given, how)),
+        fields(fields_for(given, numerics)),
         nominal(nominal_state(given)),
         pool(threads),
         stop(caller ? *caller : never) {
     for (const SceneTrial& trial : given.trials) {
       paths.push_back(path_of(given, trial));
-      makers.push_back(makers_of(given, trial, how));
+      makers.push_back(makers_of(given, trial, numerics));
     }
   }
 
@@ -239,7 +259,7 @@ struct SceneSimulator::Impl {
 
   const SceneExperiment& experiment;
   SceneNumerics numerics;
-  LinkFields fields;
+  simulation::ShapeFields fields;
   SceneState nominal;
   std::vector<JointPath> paths;                            // by trial
   mutable std::map<std::pair<int, int>, JointPath> drawn;  // by trial and draw

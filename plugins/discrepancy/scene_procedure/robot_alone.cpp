@@ -89,7 +89,7 @@ class RobotAlone {
         moment_std_(moment_std),
         standing_error_(standing_error),
         state_(nominal_state(experiment_)),
-        fields_(link_fields(experiment_.robot)) {
+        fields_(simulation::exact_fields_of(experiment_.robot)) {
     for (const auto* list : {&experiment_.scene_effects, &experiment_.effects, &model_})
       for (const plant::Effect& effect : *list) apply_scene_effect(effect, experiment_, state_);
   }
@@ -380,7 +380,7 @@ class RobotAlone {
   double force_std_, moment_std_;
   Vec3 standing_error_;  // m, W
   SceneState state_;
-  LinkFields fields_;
+  simulation::ShapeFields fields_;
   std::vector<SymptomNumber> found_;
 };
 

@@ -33,6 +33,30 @@ std::string organ_of(const cosserat::RodModel& model, const cosserat::CollisionS
 
 }  // namespace
 
+std::vector<bool> leaning_stems(const cosserat::RodModel& model,
+                                const std::vector<coupling::Overlap>& overlaps,
+                                const std::function<bool(int)>& is_of_body,
+                                const std::function<bool(int)>& is_finger) {
+  const auto organ = [&](int shape) {
+    return model.elements[static_cast<std::size_t>(model.shapes[static_cast<std::size_t>(shape)]
+                                                       .element)]
+        .organ;
+  };
+  const auto is_fruit = [&](int shape) {
+    return model.shapes[static_cast<std::size_t>(shape)].fruit >= 0;
+  };
+  std::set<int> gripped, stems;  // organs
+  for (const coupling::Overlap& one : overlaps)
+    if (is_of_body(one.collider))
+      (is_fruit(one.shape) || is_finger(one.collider) ? gripped : stems).insert(organ(one.shape));
+  const bool any = std::ranges::any_of(stems, [&](int one) { return !gripped.contains(one); });
+  if (!any) return {};
+  std::vector<bool> may(model.shapes.size());
+  for (int shape = 0; shape < static_cast<int>(may.size()); ++shape)
+    may[static_cast<std::size_t>(shape)] = !is_fruit(shape) && !gripped.contains(organ(shape));
+  return may;
+}
+
 bool lean(const cosserat::RodModel& model, cosserat::RodState& state, const Vec3& gravity,
           cosserat::ContactSource& contacts) {
   const cosserat::RodState standing = state;

@@ -8,6 +8,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/csv.h"
 #include "engine/io/yaml.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "plugins/discrepancy/scene/scene_effects.h"
 #include "plugins/discrepancy/scene_predict/scene_observe.h"

@@ -5,6 +5,7 @@
 
 #include "engine/core/diagnostics.h"
 #include "engine/io/csv.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "plugins/discrepancy/scene_procedure/robot_alone.h"
 #include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/io/csv.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "tests/discrepancy/score_table.h"
 
 namespace pedicel::scene_case {

@@ -6,6 +6,7 @@
 
 #include "engine/io/yaml.h"
 #include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_predict/scene_simulator.h"
 #include "tests/support/temporary_folder.h"
 

@@ -4,7 +4,8 @@
 
 #include "engine/core/check.h"
 #include "plugins/discrepancy/report/scene_next_report.h"
-#include "plugins/discrepancy/scene/more_scene_trials.h"
+#include "plugins/discrepancy/scene_files/more_scene_trials.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_next/arm_way.h"
 #include "plugins/discrepancy/scene_next/motion_designs.h"
 #include "tests/unit/discrepancy_scene/diagnosed_scene.h"

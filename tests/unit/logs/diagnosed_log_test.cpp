@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/verbs/import_log.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 #include "tests/unit/logs/logged_run.h"
 

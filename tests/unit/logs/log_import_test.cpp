@@ -8,6 +8,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/mcap/writer.h"
 #include "engine/ros_messages/cdr.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "tests/unit/logs/logged_run.h"
 

@@ -1,4 +1,4 @@
-#include "plugins/discrepancy/scene/more_scene_trials.h"
+#include "plugins/discrepancy/scene_files/more_scene_trials.h"
 
 #include <algorithm>
 

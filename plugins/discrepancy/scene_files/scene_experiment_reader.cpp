@@ -1,3 +1,5 @@
+#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -5,14 +7,16 @@
 #include "engine/io/csv.h"
 #include "engine/io/described_map.h"
 #include "engine/robot/kinematics.h"
-#include "engine/urdf/urdf_reader.h"
 #include "engine/world/scene_reader.h"
+#include "engine/world/settings.h"
 #include "plugins/discrepancy/scene/camera.h"
 #include "plugins/discrepancy/scene/run_effects.h"
 #include "plugins/discrepancy/scene/scene_effects.h"
-#include "plugins/discrepancy/scene/scene_experiment_keys.h"
-#include "plugins/discrepancy/scene/scene_tables.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_keys.h"
+#include "plugins/discrepancy/scene_files/scene_tables.h"
 #include "plugins/plant/effect_reader.h"
+#include "plugins/simulation/robot_control.h"
+#include "plugins/simulation/scene_plants.h"
 
 namespace pedicel::discrepancy {
 
@@ -62,6 +66,12 @@ const io::KeyList& experiment_list() {
        {.name = "scene",
         .type = KeyType::path,
         .sentence = "the nominal scene, in place of `plant`"},
+       {.name = "source",
+        .type = KeyType::word,
+        .otherwise = Told{"measured"},
+        .words = {"measured", "run"},
+        .sentence = "`run`: a log of a run of the scene by this program, whose step, mesh and contact "
+                    "are the run's"},
        {.name = "markers",
         .type = KeyType::list,
         .otherwise = none,
@@ -298,6 +308,7 @@ class SceneReader {
     DescribedMap map(node_, experiment_list());
     if (!node_.is_map() || !map.has_format()) return {};
     out_.title = map.text("title");
+    out_.is_run = map.has("source") && map.choice("source") == "run";
     read_scene(map);
     // Without a whole scene names cannot be looked up: its own faults are enough.
     if (!whole_) return {};
@@ -332,19 +343,12 @@ class SceneReader {
     const int before = diagnostics_.error_count();
     auto scene = world::read_scene(file, diagnostics_);
     if (!scene) return;
-    out_.scene = std::move(*scene);
+    out_.scene = scene->vary.empty() ? std::move(*scene) : world::drawn_scene(*scene);
     if (!out_.scene.robot)
       node->error("the scene has no robot, expected one whose joints were measured");
-    else
-      read_robot(*out_.scene.robot);
-    // What its simulation does not have must not be passed over in silence.
-    for (const auto& [stands, what] :
-         {std::pair(!out_.scene.ties.empty(), "ties"), std::pair(!out_.scene.cuts.empty(), "cuts"),
-          std::pair(out_.scene.wind.has_value(), "wind")})
-      if (stands)
-        node->error(std::string("the scene has ") + what +
-                    ", which scene experiments are simulated without: expected none");
-    for (const world::ScenePlant& plant : out_.scene.plants) read_plant(*node, plant);
+    else if (auto robot = simulation::read_robot(*out_.scene.robot, {}, diagnostics_))
+      out_.robot = std::move(*robot);
+    read_plants();
     if (out_.scene.plants.empty()) node->error("the scene has no plants, expected at least one");
     whole_ = diagnostics_.error_count() == before;
     if (!whole_) return;
@@ -356,36 +360,13 @@ class SceneReader {
     }
   }
 
-  void read_robot(const world::SceneRobot& robot) {
-    robot::PackagePaths paths = robot::PackagePaths::from_environment();
-    for (const auto& [name, path] : robot.packages) paths.add(name + "=" + path.string());
-    auto description = robot::read_urdf(robot.file, paths, diagnostics_);
-    if (description) out_.robot = std::move(*description);
-    if (!description) return;
-    const robot::KinematicModel model(out_.robot);
-    for (const auto& [joint, value] : robot.joints)
-      if (model.joint_index(joint) < 0)
-        diagnostics_.error(robot.where, "joints: no joint \"" + joint + "\", expected one of: " +
-                                            joined(joint_names(out_.robot)));
-    if (!robot.tool.empty() && out_.robot.link(robot.tool) < 0)
-      diagnostics_.error(robot.where, "tool: no link \"" + robot.tool + "\" in " + out_.robot.file);
-  }
-
-  static std::string joined(const std::vector<std::string>& names) {
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-    return list;
-  }
-
-  void read_plant(const YamlNode& scene, const world::ScenePlant& plant) {
-    if (plant.source != world::ScenePlant::Source::file || plant.optional ||
-        plant.repeat[0] * plant.repeat[1] != 1 || !plant.set.empty())
-      return scene.error("plant \"" + plant.name +
-                         "\" of the scene, expected a plant file without set: and repeat:");
-    auto file = plant::read_plant_file(plant.file, diagnostics_);
-    if (!file) return;
-    file->name = plant.name;
-    out_.plants.push_back({plant.name, std::move(*file), plant.file, plant.pose});
+  // As a run has them: with the scene's settings, and each of a grid by itself.
+  void read_plants() {
+    for (simulation::PlacedPlantFile& plant :
+         simulation::plant_files(out_.scene, {}, diagnostics_)) {
+      const std::string name = plant.file.name;
+      out_.plants.push_back({name, std::move(plant.file), std::move(plant.source), plant.pose});
+    }
   }
 
   template <class Item, class Read>
@@ -722,25 +703,6 @@ std::filesystem::path file_of(const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-double SceneTrial::duration() const {
-  double last = 0.0;
-  const auto look = [&](const Samples& samples) {
-    if (samples.size() > 0) last = std::max(last, samples.time.back());
-  };
-  for (const Samples* samples : {&joints, &commands, &torques, &markers}) look(*samples);
-  for (const Samples& samples : pixels) look(samples);
-  for (const Samples& samples : wrenches) look(samples);
-  return last;
-}
-
-int SceneExperiment::plant_index(const std::string& name) const {
-  return index_of(plants, name);
-}
-
-std::vector<std::string> joint_names(const robot::RobotDescription& robot) {
-  return robot::KinematicModel(robot).joint_names();
-}
 
 bool is_scene_experiment(const std::filesystem::path& path) {
   Diagnostics ignored;

@@ -1,3 +1,5 @@
+#include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
+
 #include <algorithm>
 
 #include "engine/core/check.h"
@@ -5,7 +7,7 @@
 #include "engine/io/common_folder.h"
 #include "engine/io/csv.h"
 #include "engine/io/text_file.h"
-#include "plugins/discrepancy/scene/scene_tables.h"
+#include "plugins/discrepancy/scene_files/scene_tables.h"
 #include "plugins/plant/leaf_template.h"
 
 namespace pedicel::discrepancy {
@@ -102,6 +104,7 @@ std::string trial_text(const SceneExperiment& experiment, const SceneTrial& tria
 
 std::string experiment_text(const SceneExperiment& experiment, const fs::path& scene) {
   std::string text = "format: pedicel-experiment\nversion: 1\n";
+  if (experiment.is_run) text += "source: run\n";
   if (!experiment.title.empty()) text += "title: " + yaml_word(experiment.title) + "\n";
   text += "scene: " + yaml_word(scene.string()) + "\n";
   text += instruments_text(experiment) + noise_text(experiment.noise) +

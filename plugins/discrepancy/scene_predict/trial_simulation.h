@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plugins/discrepancy/scene/arm.h"
+#include "plugins/simulation/colliders.h"
 
 namespace pedicel::discrepancy {
 
@@ -22,6 +23,9 @@ struct SceneNumerics {
   /// margin of a scene keeps resting things apart.
   double margin = 1.0e-5;
   double tolerance = 1.0e-7;  ///< m and rad, of Newton's method in a step
+  /// Step, mesh, margin, solver and start are those of a run of the scene, and not the above: what
+  /// was measured is a log of such a run.
+  bool as_run = false;
 };
 
 /// What plants and arm really did in a trial, step by step.
@@ -60,11 +64,12 @@ struct SceneMember {
   std::span<const SceneForce> forces;
 };
 
-/// Simulates variants of one trial side by side: one-way coupling, the arm as `path` says.
-/// `makers`: one a plant of the experiment, built for the trial's poses.
+/// Simulates variants of one trial side by side: each is a simulation::Simulation whose robot goes
+/// as `path` says. Coupling is one-way, unless joints give way. `makers`: one a plant of the
+/// experiment, built for the trial's poses. `fields`: of the robot.
 std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, const SceneTrial& trial,
                                          std::span<const std::unique_ptr<PlantMaker>> makers,
-                                         const LinkFields& fields, const SceneNumerics& numerics,
+                                         const simulation::ShapeFields& fields, const SceneNumerics& numerics,
                                          double until, std::span<const SceneMember> members,
                                          const std::atomic<bool>& stop);
 

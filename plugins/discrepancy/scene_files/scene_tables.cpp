@@ -1,4 +1,4 @@
-#include "plugins/discrepancy/scene/scene_tables.h"
+#include "plugins/discrepancy/scene_files/scene_tables.h"
 
 #include <algorithm>
 #include <cmath>
