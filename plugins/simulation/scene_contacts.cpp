@@ -80,8 +80,7 @@ void SceneContacts::add_colliders(const SceneAssets& assets) {
 // A gripper stands where its motor balances what it holds. Only the direct solver tells how far a
 // plant gives way to it, and under torque control there is no motor that presses.
 void SceneContacts::add_grip(const SceneAssets& assets) {
-  const bool grips = robot_ && !robot_->led_by_readings() && robot_->gripper() >= 0 &&
-                     scene_.robot->control != "torque" &&
+  const bool grips = robot_ && robot_->gripper() >= 0 && scene_.robot->control != "torque" &&
                      assets.rods.solver == cosserat::SolverKind::direct;
   if (grips) grip_ = std::make_unique<GripperStep>(*robot_, colliders_);
 }

@@ -99,9 +99,9 @@ JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, in
   for (const auto& [joint, value] : experiment.scene.robot->joints)
     if (const int dof = model.joint_index(joint); dof >= 0) start[dof] = value;
   if (trial.follows_commands) return {};
+  const double stated = experiment.noise.joint_std.value_or(0.0);
   // A run's log says where its joints were.
-  const double deviation =
-      experiment.is_run ? exactly : experiment.noise.joint_std.value_or(0.0);
+  const double deviation = experiment.is_run && draw == 0 ? exactly : stated;
   if (draw == 0) return smooth_readings(trial.joints, deviation).spread(trial.joint_columns, start);
   Samples other = trial.joints;
   const Eigen::VectorXd scatter = smooth_readings(trial.joints, deviation).scatter();
