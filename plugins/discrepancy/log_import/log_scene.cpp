@@ -5,7 +5,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/common_folder.h"
 #include "engine/robot/kinematics.h"
-#include "engine/urdf/urdf_reader.h"
+#include "engine/robot/read/read_robot.h"
 #include "engine/world/scene_reader.h"
 #include "plugins/plant/leaf_template.h"
 
@@ -24,7 +24,7 @@ void read_robot(LogScene& out, Diagnostics& diagnostics) {
   const world::SceneRobot& robot = *out.scene.robot;
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
   for (const auto& [name, path] : robot.packages) paths.add(name + "=" + path.string());
-  auto description = robot::read_urdf(robot.file, paths, diagnostics);
+  auto description = robot::read_robot(robot.file, paths, diagnostics);
   if (!description) return;
   out.robot = std::move(*description);
   out.joints = robot::KinematicModel(out.robot).joint_names();

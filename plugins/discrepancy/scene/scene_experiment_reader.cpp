@@ -5,7 +5,7 @@
 #include "engine/io/csv.h"
 #include "engine/io/described_map.h"
 #include "engine/robot/kinematics.h"
-#include "engine/urdf/urdf_reader.h"
+#include "engine/robot/read/read_robot.h"
 #include "engine/world/scene_reader.h"
 #include "plugins/discrepancy/scene/camera.h"
 #include "plugins/discrepancy/scene/run_effects.h"
@@ -359,7 +359,7 @@ class SceneReader {
   void read_robot(const world::SceneRobot& robot) {
     robot::PackagePaths paths = robot::PackagePaths::from_environment();
     for (const auto& [name, path] : robot.packages) paths.add(name + "=" + path.string());
-    auto description = robot::read_urdf(robot.file, paths, diagnostics_);
+    auto description = robot::read_robot(robot.file, paths, diagnostics_);
     if (description) out_.robot = std::move(*description);
     if (!description) return;
     const robot::KinematicModel model(out_.robot);
