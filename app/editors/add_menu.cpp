@@ -7,25 +7,14 @@
 
 #include "app/editors/thing_editor.h"
 #include "app/session/commands/scene_things.h"
+#include "app/session/robot_placing.h"
 #include "app/ui/widgets.h"
-#include "engine/io/asset_folder.h"
 
 namespace pedicel::app {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The URDFs that come with the program.
-std::vector<fs::path> shipped_robots() {
-  std::vector<fs::path> files;
-  std::error_code none;
-  for (const auto& folder : fs::directory_iterator(io::asset_folder() / "robots", none))
-    for (const auto& file : fs::directory_iterator(folder.path(), none))
-      if (file.path().extension() == ".urdf") files.push_back(file.path());
-  std::ranges::sort(files);
-  return files;
-}
 
 double ground_of(const Ui& ui) {
   const auto& ground = ui.session.document().scene->ground;

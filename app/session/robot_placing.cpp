@@ -9,7 +9,7 @@
 #include "engine/core/check.h"
 #include "engine/io/asset_folder.h"
 #include "engine/robot/inverse_kinematics.h"
-#include "engine/urdf/urdf_reader.h"
+#include "engine/robot/read/read_robot.h"
 #include "plugins/plant/plant_edit.h"
 
 namespace pedicel::app {
@@ -71,14 +71,24 @@ int reached(robot::KinematicModel& model, int tool, const Pose& base,
 /// A path, or the name of a robot that comes with the program.
 std::filesystem::path robot_file(const std::string& name) {
   std::error_code none;
-  const auto shipped = io::asset_folder() / "robots" / name / (name + ".urdf");
-  if (name.find('/') == std::string::npos && !std::filesystem::exists(name, none) &&
-      std::filesystem::exists(shipped, none))
-    return shipped;
+  if (!std::filesystem::exists(name, none))
+    for (const auto& shipped : shipped_robots())
+      if (shipped.stem() == name) return shipped;
   return std::filesystem::absolute(name).lexically_normal();
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> shipped_robots() {
+  std::vector<std::filesystem::path> files;
+  std::error_code none;
+  for (const auto& folder :
+       std::filesystem::directory_iterator(io::asset_folder() / "robots", none))
+    for (const auto& file : std::filesystem::directory_iterator(folder.path(), none))
+      if (robot::is_robot_name(file.path())) files.push_back(file.path());
+  std::ranges::sort(files);
+  return files;
+}
 
 std::string likely_tool(const robot::RobotDescription& robot) {
   for (const char* name : {"tool", "tcp", "tool0", "tool_link", "tool_center_point", "ee_link"})
@@ -162,7 +172,7 @@ Command placed_robot(const Document& document, const std::vector<std::string>& p
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
   for (const std::string& package : packages) paths.add(package);
   Diagnostics diagnostics;
-  const auto robot = robot::read_urdf(file, paths, diagnostics);
+  const auto robot = robot::read_robot(file, paths, diagnostics);
   if (!robot) throw InvalidFile(diagnostics);
   const std::string tool = c.word_or("tool", likely_tool(*robot));
   const std::string gripper = c.word_or("gripper", likely_gripper(*robot));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,9 @@
 
 /// What a robot gets by itself when it is added to a scene.
 namespace pedicel::app {
+
+/// The files of the robots that come with the program.
+std::vector<std::filesystem::path> shipped_robots();
 
 /// The link that is led: one that is named as such (tool, tcp, tool0, ...), else the last one of
 /// the longest chain, as far from the base as it goes.

@@ -9,6 +9,7 @@
 #include "app/ui/theme.h"
 #include "app/ui/ui.h"
 #include "app/ui/widgets.h"
+#include "engine/robot/read/read_robot.h"
 
 namespace pedicel::app {
 
@@ -19,7 +20,7 @@ namespace {
 bool can_be_opened(const fs::path& path, bool robots) {
   const std::string name = path.filename().string();
   const auto ends = [&name](const char* with) { return name.ends_with(with); };
-  if (robots) return ends(".urdf");
+  if (robots) return robot::is_robot_name(path);
   return ends(".scene.yaml") || ends(".plant.yaml") || ends(".csv") || ends(".mtg") ||
          ends(".ply") || ends(".xml") || name == "experiment.yaml";
 }

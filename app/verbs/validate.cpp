@@ -1,6 +1,5 @@
 #include "app/verbs/validate.h"
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
@@ -12,7 +11,7 @@
 #include "engine/geometry/mesh.h"
 #include "engine/io/text_file.h"
 #include "engine/io/yaml.h"
-#include "engine/urdf/urdf_reader.h"
+#include "engine/robot/read/read_robot.h"
 #include "engine/world/scene_reader.h"
 #include "engine/world/variation.h"
 #include "plugins/discrepancy/admission/admission.h"
@@ -128,11 +127,11 @@ std::string check_experiment(const std::filesystem::path& path, const Options& g
          " samples";
 }
 
-std::string check_urdf(const std::filesystem::path& path, const Options& given,
-                       Diagnostics& diagnostics) {
+std::string check_robot(const std::filesystem::path& path, const Options& given,
+                        Diagnostics& diagnostics) {
   robot::PackagePaths paths = robot::PackagePaths::from_environment();
   for (const std::string& package : given.packages) paths.add(package);
-  const auto robot = robot::read_urdf(path, paths, diagnostics);
+  const auto robot = robot::read_robot(path, paths, diagnostics);
   if (!robot) return {};
   for (std::string& warning : simulation::large_mesh_warnings(*robot))
     diagnostics.warning({path.string()}, std::move(warning));
@@ -166,12 +165,12 @@ Kind table() {
   return {"", "", name_of(kind), check_table_of<kind>};
 }
 
+constexpr Kind robot_kind{"", "", "robot", check_robot};
 constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
                               Kind{"pedicel-experiment", "", "experiment", check_experiment},
                               Kind{"pedicel-scene", "", "scene", check_scene},
                               Kind{"pedicel-leaf", "", "leaf template", check_leaf},
                               Kind{"pedicel-variation", "", "variation", check_variation},
-                              Kind{"", ".urdf", "robot", check_urdf},
                               Kind{"", ".mtg", "digitised plant", check_mtg},
                               Kind{"", ".ply", "skeleton", check_ply},
                               Kind{"", ".stl", "mesh", check_mesh},
@@ -208,7 +207,7 @@ std::string expected_kinds() {
   std::string list;
   for (const Kind& kind : kinds)
     list += std::string(list.empty() ? "" : ", ") + (*kind.format ? kind.format : kind.extension);
-  return list + ", a table (.csv) or a script of commands";
+  return list + ", " + robot::robot_formats() + ", a table (.csv) or a script of commands";
 }
 
 /// What `format:` says; empty where the file is no YAML map that has it.
@@ -229,11 +228,8 @@ std::string lower_extension(const std::filesystem::path& path) {
 /// By what the text begins with, where the name does not tell.
 std::optional<Kind> kind_of_text(const std::filesystem::path& path, const std::string& extension) {
   const std::string text = io::read_text_file(path);
-  const std::string_view begin =
-      std::string_view(text).substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   if (plant::is_helios_xml(text)) return Kind{"", "", "plant structure of Helios", check_helios};
-  if (begin.starts_with("<?xml") || begin.starts_with("<robot"))
-    return Kind{"", "", "robot", check_urdf};
+  if (robot::is_robot_text(text)) return robot_kind;
   if (text.find("\nMTG") != std::string::npos && text.find("CODE") != std::string::npos)
     return Kind{"", "", "digitised plant", check_mtg};
   if (const auto table = table_kind(path)) return kind_of_table(*table);
@@ -244,6 +240,7 @@ std::optional<Kind> kind_of_text(const std::filesystem::path& path, const std::s
 
 Kind kind_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return kind_of(path / "experiment.yaml");
+  if (robot::is_robot_name(path)) return robot_kind;
   const std::string extension = lower_extension(path);
   for (const Kind& kind : kinds)
     if (*kind.extension && extension == kind.extension) return kind;

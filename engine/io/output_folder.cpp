@@ -294,7 +294,7 @@ std::string name_of_file(const fs::path& path) {
   const auto is_dots = [](std::string_view text) { return text == "." || text == ".."; };
   if (is_dots(name)) return "untitled";
   for (const std::string ending :
-       {".scene.yaml", ".plant.yaml", ".leaf.yaml", ".yaml", ".yml", ".csv", ".mtg", ".urdf"})
+       {".scene.yaml", ".plant.yaml", ".leaf.yaml", ".yaml", ".yml", ".csv", ".mtg"})
     if (name.size() > ending.size() && name.ends_with(ending) &&
         !is_dots(std::string_view(name).substr(0, name.size() - ending.size())))
       return name.substr(0, name.size() - ending.size());

@@ -49,7 +49,7 @@ std::string write_folder(const std::filesystem::path& folder,
                          const std::function<void(const std::filesystem::path&)>& write);
 
 /// A file's name without the ending that says its kind: "pull_0.1" of pull_0.1.scene.yaml and of
-/// pull_0.1. Known: .scene.yaml, .plant.yaml, .leaf.yaml, .yaml, .yml, .csv, .mtg, .urdf.
+/// pull_0.1. Known: .scene.yaml, .plant.yaml, .leaf.yaml, .yaml, .yml, .csv, .mtg.
 std::string name_of_file(const std::filesystem::path& path);
 
 }  // namespace pedicel::io

@@ -2,7 +2,7 @@
 #include "engine/robot/cartesian_path.h"
 #include "engine/robot/holding_effort.h"
 #include "engine/robot/joint_range.h"
-#include "engine/urdf/urdf_reader.h"
+#include "engine/robot/read/read_robot.h"
 #include "plugins/simulation/robot_control.h"
 
 namespace pedicel::simulation {
@@ -118,7 +118,7 @@ std::optional<robot::RobotDescription> read_robot(const world::SceneRobot& scene
   for (const auto& [name, path] : scene.packages) paths.add(name + "=" + path.string());
   for (const std::string& package : packages) paths.add(package);
   const int before = diagnostics.error_count();
-  auto description = robot::read_urdf(scene.file, paths, diagnostics);
+  auto description = robot::read_robot(scene.file, paths, diagnostics);
   if (description) check_names(scene, *description, diagnostics);
   if (diagnostics.error_count() > before) return std::nullopt;
   return description;

@@ -244,7 +244,8 @@ TEST(HiddenCases, LookAlikesAreAlike) {
 TEST(HiddenCases, FolderGivesNothingAway) {
   const TemporaryFolder folder;
   HiddenCase c = make_case(5, first_order([](const CaseOrder& o) {
-                             return o.kind == Kind::outside && o.pack == PackKind::push;
+                             return o.kind == Kind::outside && o.pack == PackKind::push &&
+                                    o.plant == PlantKind::stem;
                            }));
   write_case(folder / "", c);
   Diagnostics diagnostics;

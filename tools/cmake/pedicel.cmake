@@ -67,14 +67,16 @@ function(pedicel_headers NAME)
   pedicel_install(${NAME})
 endfunction()
 
-# pedicel_test(NAME SOURCES file... [APART file...] LIBRARIES target... [LABELS label...] [TIMEOUT s])
+# pedicel_test(NAME SOURCES file... [APART file...] LIBRARIES target... [LABELS label...] [TIMEOUT s]
+#              [HIDDEN filter])
 #
 # One GoogleTest program per folder of tests; each of its cases is a ctest case. Most of a test's
 # compile time goes into headers, so four files are compiled as one where they agree; APART names
 # those that stay by themselves, since they use another's names otherwise. What takes a unit test's
-# time is in the libraries, so the compiler need not take much.
+# time is in the libraries, so the compiler need not take much. Cases that GoogleTest's filter HIDDEN
+# names get the label `hidden` alone: long ones beside shorter siblings.
 function(pedicel_test NAME)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;APART;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT;HIDDEN" "SOURCES;APART;LIBRARIES;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS unit)
   endif()
@@ -89,6 +91,10 @@ function(pedicel_test NAME)
   endif()
   pedicel_compiled(${NAME} test)
   target_link_libraries(${NAME} PRIVATE ${ARG_LIBRARIES} pedicel_places GTest::gmock GTest::gtest_main)
-  gtest_discover_tests(${NAME} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
-                       DISCOVERY_TIMEOUT 120)
+  gtest_discover_tests(${NAME} TEST_FILTER "-${ARG_HIDDEN}" DISCOVERY_TIMEOUT 120
+                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_HIDDEN)
+    gtest_discover_tests(${NAME} TEST_FILTER "${ARG_HIDDEN}" DISCOVERY_TIMEOUT 120
+                         PROPERTIES LABELS hidden TIMEOUT 1200)
+  endif()
 endfunction()

@@ -18,8 +18,8 @@ std::string name_of(const testing::TestParamInfo<int>& info) {
   return test_name(info.param);
 }
 
-INSTANTIATE_TEST_SUITE_P(Nothing, SceneCases, testing::Values(0, 1, 4, 5), name_of);
-INSTANTIATE_TEST_SUITE_P(Something, SceneCases, testing::Values(2, 3, 7, 8, 9), name_of);
+INSTANTIATE_TEST_SUITE_P(Nothing, SceneCases, testing::Values(1), name_of);
+INSTANTIATE_TEST_SUITE_P(Something, SceneCases, testing::Values(7), name_of);
 
 }  // namespace
 }  // namespace pedicel::scene_case

@@ -6,7 +6,7 @@
 namespace pedicel::plain {
 namespace {
 
-constexpr int seeds_per_test = 25, tests = 20;
+constexpr int seeds_per_test = 5, tests = 20;
 
 class Gardens : public testing::TestWithParam<int> {};
 
