@@ -28,8 +28,8 @@ namespace pedicel::simulation {
 struct SceneAssets;
 class GivingRobot;
 class SceneContacts;
-class WrenchSensor;
-class WrenchSensors;
+class Instrument;
+class Instruments;
 
 /// A scene brought to life: Bullet's world, the robot, the plants and what they feel of each other.
 class Simulation {
@@ -67,8 +67,8 @@ class Simulation {
   Measurements& measurements() { return *measurements_; }
   /// How gently its plants were handled so far.
   const Gentleness& gentleness() const { return *gentleness_; }
-  /// The force sensors of the scene, in its order.
-  const std::vector<WrenchSensor>& wrenches() const;
+  /// Of the scene, in its order.
+  const std::vector<std::unique_ptr<Instrument>>& instruments() const;
   /// Null where the scene has no robot.
   const RobotControl* robot() const { return robot_.get(); }
   RobotControl* robot() { return robot_.get(); }
@@ -97,7 +97,7 @@ class Simulation {
   std::unique_ptr<SceneContacts> contacts_;
   std::unique_ptr<Measurements> measurements_;
   std::unique_ptr<Gentleness> gentleness_;
-  std::unique_ptr<WrenchSensors> wrenches_;  // null: the scene has none
+  std::unique_ptr<Instruments> instruments_;
   std::vector<std::string> notes_;
 };
 
