@@ -154,7 +154,10 @@ struct SceneInstrument {
   explicit SceneInstrument(const InstrumentKind& of) : noise(of) {}
   const InstrumentKind& kind() const { return *noise.kind; }
 
-  std::string name, link;
+  std::string name;
+  std::string link, organ;  ///< one of them: a link's name, or "PLANT/CURVE" or "PLANT/FRUIT"
+  double at = 1.0;          ///< fraction of the curve's length, from its foot
+  Pose pose;                ///< of its frame, in the link's or in the organ's, whose z is along it
   /// Of a wrench. False: what the link and all beyond it exert on what carries it (a wrist), weight
   /// and inertia included. True: only what plants and bodies exert on the link (a fingertip).
   bool touch = false;

@@ -263,14 +263,16 @@ std::string camera(const SceneCamera& camera) {
 }
 
 std::string instrument(const SceneInstrument& one) {
-  const SceneInstrument plain(one.kind());
+  const SceneInstrument usual(one.kind());
   FlowMap map;
   map.add("name", io::yaml_word(one.name));
   if (!one.link.empty()) map.add("link", io::yaml_word(one.link));
+  if (!one.organ.empty()) map.add("organ", plain(one.organ));
+  map.add_unless("at", one.at, usual.at).add_pose(one.pose);
   if (one.touch) map.add("touch", "true");
   if (one.tared) map.add("tared", "true");
-  map.add_unless("rate", one.rate, plain.rate);
-  add_described(map, "noise", one.noise, plain.noise);
+  map.add_unless("rate", one.rate, usual.rate);
+  add_described(map, "noise", one.noise, usual.noise);
   return map.text();
 }
 

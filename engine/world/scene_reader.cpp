@@ -265,9 +265,11 @@ void check_references(io::DescribedMap& map, const Scene& scene, Diagnostics& di
     for (const SceneWaypoint& waypoint : scene.robot->waypoints)
       check_anchor(scene, waypoint.at, diagnostics);
   for (const SceneCamera& camera : scene.cameras) check_anchor(scene, camera.follow, diagnostics);
-  for (const SceneInstrument& one : scene.instruments)
+  for (const SceneInstrument& one : scene.instruments) {
+    check_organ(scene, one.organ, one.where, diagnostics);
     if (!scene.robot && !one.link.empty())
       diagnostics.error(one.where, one.kind().what + ": the scene has no robot");
+  }
   check_vary(scene, diagnostics);
   for (const Expectation& e : scene.expectations) check_expectation(scene, e, diagnostics);
   std::vector<std::string> wanted = {scene.video.camera};

@@ -92,10 +92,25 @@ io::KeyList instrument_list(const InstrumentKind& kind) {
   list.keys.push_back(
       {.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the sensor"});
   if (has("link"))
-    list.keys.push_back({.name = "link",
+    list.keys.push_back(
+        {.name = "link",
+         .type = KeyType::text,
+         .otherwise = has("organ") ? io::Otherwise(Told{"on an organ"}) : io::Needed{},
+         .form = "name of a link",
+         .sentence = "where it sits"});
+  if (has("organ")) {
+    list.keys.push_back({.name = "organ",
                          .type = KeyType::text,
-                         .form = "name of a link",
-                         .sentence = "where it sits"});
+                         .otherwise = Told{"on a link"},
+                         .form = "`PLANT/CURVE` or `PLANT/FRUIT`",
+                         .sentence = "where it sits on a plant, in place of `link`"});
+    list.keys.push_back({.name = "at",
+                         .unit = "1",
+                         .otherwise = plain.at,
+                         .bounds = {0.0, 1.0},
+                         .sentence = "fraction of the curve's length, from its foot"});
+  }
+  if (has("position")) list.also = {&pose_keys()};
   if (has("touch"))
     list.keys.push_back(
         {.name = "touch",
@@ -221,6 +236,12 @@ SceneInstrument read_instrument(const io::YamlNode& node, const InstrumentKind& 
   one.where = node.position();
   one.name = map.text("name");
   if (keys.find("link")) one.link = map.text("link");
+  if (keys.find("organ")) {
+    one.organ = map.text("organ");
+    one.at = map.number("at");
+    if (one.link.empty() == one.organ.empty()) map.error(kind.what + ": expected link or organ");
+  }
+  if (keys.find("orientation")) one.pose = read_pose(map);
   if (keys.find("touch")) one.touch = map.boolean("touch");
   if (keys.find("tared")) one.tared = map.boolean("tared");
   one.rate = map.number("rate");

@@ -35,7 +35,7 @@ struct InstrumentKind {
   std::string what;     ///< "a wrench": in errors
   std::string noun;     ///< "force sensor"
   std::string says;     ///< what its numbers are, for Python
-  /// Keys beside name, rate and noise; "pose": position and orientation.
+  /// Keys beside name, rate and noise. With `organ` there is `at`, with `position` `orientation`.
   std::vector<std::string> keys;
   std::vector<InstrumentVector> vectors;
 };

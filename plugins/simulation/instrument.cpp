@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/core/check.h"
-#include "plugins/simulation/simulation.h"
+#include "plugins/simulation/place.h"
 
 namespace pedicel::simulation {
 
@@ -20,6 +20,59 @@ std::uint64_t seed_of(std::uint64_t run, const std::string& name) {
 }
 
 }  // namespace
+
+int link_of(const Simulation& simulation, const world::SceneInstrument& scene) {
+  const int link = simulation.robot()->description().link(scene.link);
+  if (link < 0)
+    throw UsageError(scene.kind().name + " " + in_quotes(scene.name) + ": the robot has no link " +
+                     in_quotes(scene.link));
+  return link;
+}
+
+std::string own_frame_name(const world::SceneInstrument& scene) {
+  return scene.name + "/" + scene.kind().name;
+}
+
+Seat::Seat(const Simulation& simulation, const world::SceneInstrument& scene)
+    : simulation_(simulation), offset_(scene.pose) {
+  if (!scene.link.empty()) {
+    link_ = link_of(simulation, scene);
+    return;
+  }
+  place_ = find_organ_place(simulation.rods(), scene.organ, scene.at);
+  const cosserat::RodModel& model = simulation.rods().model(place_.plant);
+  for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
+    if (fruit_name(model, f) == scene.organ) fruit_ = f;
+}
+
+std::optional<Pose> Seat::pose() {
+  if (link_ >= 0) return simulation_.robot()->link_pose(link_) * offset_;
+  const cosserat::RodState& state = simulation_.rods().state(place_.plant);
+  const Pose now = Pose{cosserat::point_on(simulation_.rods().model(place_.plant), state,
+                                           place_.element, place_.back),
+                        state.orientation[place_.element]} *
+                   offset_;
+  const bool is_off = fruit_ >= 0 ? state.fruit_gone[fruit_] != 0 : !state.alive[place_.element];
+  if (is_off) return pose_on_body(state, now);
+  return last_ = now;
+}
+
+std::optional<Pose> Seat::pose_on_body(const cosserat::RodState& state, const Pose& now) {
+  const world::SimWorld& world = simulation_.world();
+  if (body_ < 0) {
+    // What a cut takes off, it takes as the step before left it; a fruit comes off at a step's end.
+    body_ = simulation_.cutting().body_with(place_.plant, place_.element);
+    pose_B_ = last_;
+    const auto& fruits = simulation_.rods().model(place_.plant).fruits;
+    for (int f = 0; f < static_cast<int>(fruits.size()) && body_ < 0; ++f)
+      if ((f == fruit_ || fruits[f].element == place_.element) && state.fruit_gone[f])
+        if (const auto fallen = fallen_fruit(simulation_, place_.plant, f))
+          body_ = fallen->body, pose_B_ = now;
+    if (body_ < 0) return std::nullopt;
+    pose_B_ = world.body(body_).pose.inverse() * pose_B_;
+  }
+  return world.body_pose(body_) * pose_B_;
+}
 
 Instrument::Instrument(const world::SceneInstrument& scene, int run_seed,
                        const std::string& noise_name, Gauge gauge)

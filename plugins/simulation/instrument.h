@@ -10,6 +10,7 @@
 #include "engine/core/random.h"
 #include "engine/world/scene.h"
 #include "engine/world/sim_world.h"
+#include "plugins/simulation/plants/organ_places.h"
 
 namespace pedicel::ros {
 struct Definition;
@@ -24,6 +25,32 @@ struct Gauge {
   double gain = 1.0;
   Eigen::VectorXd bias;
 };
+
+/// The link that an instrument sits on. Throws UsageError where the robot has none of that name.
+int link_of(const Simulation& simulation, const world::SceneInstrument& scene);
+
+/// Where an instrument sits: on a link, or on an organ, which may come off.
+class Seat {
+ public:
+  /// Throws UsageError where there is no such link or organ.
+  Seat(const Simulation& simulation, const world::SceneInstrument& scene);
+  /// X_W of the instrument's frame, to be asked for once a step. Of what came off it is that of the
+  /// body that it became; nothing where there is none.
+  std::optional<Pose> pose();
+
+ private:
+  std::optional<Pose> pose_on_body(const cosserat::RodState& state, const Pose& now);
+
+  const Simulation& simulation_;
+  int link_ = -1, fruit_ = -1;  // index; -1: it sits on none
+  PlaceOnPlant place_;
+  Pose offset_, last_;
+  int body_ = -1;  // that its organ is by now
+  Pose pose_B_;    // in that body
+};
+
+/// The name of an instrument's own frame: "NAME/KIND".
+std::string own_frame_name(const world::SceneInstrument& scene);
 
 /// An instrument of the scene: it looks at each step, and says what it saw at its own rate, with
 /// noise, tare and latency. Its numbers are those of its kind's vectors, one after the other.
@@ -57,6 +84,8 @@ class Instrument {
   /// What was added by the last step; of a tared sensor its first 0.2 s come all at once.
   const std::vector<Sample>& new_samples() const { return new_; }
 
+  /// X_W of its frame, where that is own_frame_name() and no link's.
+  virtual std::optional<Pose> own_frame() const { return std::nullopt; }
   /// What messages of ROS tell it, and the reading as one (CDR).
   virtual std::vector<ros::Definition> message_type() const = 0;
   virtual std::string message() const = 0;

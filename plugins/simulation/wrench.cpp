@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "engine/core/check.h"
 #include "engine/ros_messages/cdr.h"
 #include "engine/ros_messages/common_messages.h"
 #include "plugins/simulation/body_contacts.h"
@@ -47,11 +46,8 @@ class WrenchSensor : public Instrument {
         robot_(*simulation.robot()),
         plants_(simulation.plant_step()),
         gravity_(simulation.scene().gravity),
-        link_(robot_.description().link(scene.link)) {
-    if (link_ < 0)
-      throw UsageError("wrench " + in_quotes(scene.name) + ": the robot has no link " +
-                       in_quotes(scene.link));
-    beyond_ = links_beyond(robot_.description(), link_);
+        link_(link_of(simulation, scene)),
+        beyond_(links_beyond(robot_.description(), link_)) {
     for (const int link : beyond_) before_.push_back(robot_.link_pose(link));
   }
 
@@ -115,7 +111,7 @@ class WrenchSensor : public Instrument {
   const PlantStep& plants_;
   Vec3 gravity_;
   int link_ = -1;
-  std::vector<int> beyond_;                             // links: it and all that hangs on it
+  const std::vector<int> beyond_;                       // links: it and all that hangs on it
   std::vector<Pose> before_;                            // of beyond_, W
   Vec3 momentum_ = Vec3::Zero(), spin_ = Vec3::Zero();  // N s; N m s, about the world's origin
   bool moved_ = false;                                  // momentum_ is known

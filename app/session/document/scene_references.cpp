@@ -44,7 +44,7 @@ bool tie_means(const world::SceneTie& tie, const std::string& name) {
 }
 
 bool sits_on(const world::SceneInstrument& instrument, const std::string& name) {
-  return name == "robot" && !instrument.link.empty();
+  return means(instrument.organ, name) || (name == "robot" && !instrument.link.empty());
 }
 
 /// By its tool a robot cuts.
@@ -154,8 +154,10 @@ std::vector<std::string> broken_references(const Document& document) {
     if (!has_organ(document, cut.organ)) add(cut.organ);
     if (!cut.time && !scene.robot) add("robot");
   }
-  for (const auto& one : scene.instruments)
+  for (const auto& one : scene.instruments) {
     if (!one.link.empty() && !scene.robot) add("robot");
+    if (!one.organ.empty() && !has_organ(document, one.organ)) add(one.organ);
+  }
   for (const auto& e : scene.expectations) {
     if (!e.fruit.empty() && !has_fruit(document, e.fruit)) add(e.fruit);
     if (!e.plant.empty() && !find_plant(document, e.plant)) add(e.plant);
@@ -239,6 +241,7 @@ void rename_references(Document& document, ThingKind kind, const std::string& na
   for (auto& load : scene.loads) rename(load.target, name, to);
   for (auto& tie : scene.ties) rename(tie.organ, name, to), rename(tie.to_organ, name, to);
   for (auto& cut : scene.cuts) rename(cut.organ, name, to);
+  for (auto& one : scene.instruments) rename(one.organ, name, to);
 }
 
 void rename_organ_references(Document& document, const std::string& plant, const std::string& name,
@@ -263,6 +266,7 @@ void rename_organ_references(Document& document, const std::string& plant, const
   for (auto& load : scene.loads) any |= renamed(load.target);
   for (auto& tie : scene.ties) any |= renamed(tie.organ), any |= renamed(tie.to_organ);
   for (auto& cut : scene.cuts) any |= renamed(cut.organ);
+  for (auto& one : scene.instruments) any |= renamed(one.organ);
   if (any) document.edit_scene() = std::move(scene);
 }
 
