@@ -42,6 +42,7 @@ class H5Sink : public TopicSink {
   static Take taker_of(const std::string& type) {
     if (type == ros::JointState::name) return &H5Sink::take_joints;
     if (type == ros::WrenchStamped::name) return &H5Sink::take_vectors<ros::WrenchStamped>;
+    if (type == ros::Imu::name) return &H5Sink::take_vectors<ros::Imu>;
     if (type == ros::TFMessage::name) return &H5Sink::take_frames;
     if (type == ros::Image::name) return &H5Sink::take_image;
     if (type == ros::CameraInfo::name) return &H5Sink::take_camera;

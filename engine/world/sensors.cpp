@@ -27,7 +27,14 @@ const std::vector<InstrumentKind>& instrument_kinds() {
        "force sensor",
        "force (N) and moment (N m) in the link's frame",
        {"link", "touch", "tared"},
-       {{"force", "N", {"fx", "fy", "fz"}}, {"moment", "N m", {"tx", "ty", "tz"}}}}};
+       {{"force", "N", {"fx", "fy", "fz"}}, {"moment", "N m", {"tx", "ty", "tz"}}}},
+      {"imu",
+       "imus",
+       "an IMU",
+       "IMU",
+       "acceleration less gravity (m/s2) and angular velocity (rad/s) in its own frame",
+       {"link", "organ", "position"},
+       {{"acceleration", "m/s2", {"ax", "ay", "az"}}, {"rate", "rad/s", {"wx", "wy", "wz"}}}}};
   return kinds;
 }
 
