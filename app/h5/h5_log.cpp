@@ -41,7 +41,8 @@ class H5Sink : public TopicSink {
 
   static Take taker_of(const std::string& type) {
     if (type == ros::JointState::name) return &H5Sink::take_joints;
-    if (type == ros::WrenchStamped::name) return &H5Sink::take_wrench;
+    if (type == ros::WrenchStamped::name) return &H5Sink::take_vectors<ros::WrenchStamped>;
+    if (type == ros::Imu::name) return &H5Sink::take_vectors<ros::Imu>;
     if (type == ros::TFMessage::name) return &H5Sink::take_frames;
     if (type == ros::Image::name) return &H5Sink::take_image;
     if (type == ros::CameraInfo::name) return &H5Sink::take_camera;
@@ -63,13 +64,23 @@ class H5Sink : public TopicSink {
     if (named_.insert(topic).second) file_.set_attribute(topic, "names", message.names);
   }
 
-  void take_wrench(const std::string& topic, double, std::string_view cdr) {
-    const auto message = *ros::from_cdr<ros::WrenchStamped>(cdr);
-    const ros::Vector3 &f = message.wrench.force, &m = message.wrench.torque;
+  /// The vectors of a stamped message, each by its field's name.
+  template <class M>
+  void take_vectors(const std::string& topic, double, std::string_view cdr) {
+    const auto message = *ros::from_cdr<M>(cdr);
     time_row(topic, message.header);
-    file_.append(topic + "/force", std::vector<double>{f.x, f.y, f.z});
-    file_.append(topic + "/torque", std::vector<double>{m.x, m.y, m.z});
+    take_fields(topic, message);
     if (named_.insert(topic).second) file_.set_attribute(topic, "frame", message.header.frame_id);
+  }
+  template <class M>
+  void take_fields(const std::string& topic, const M& message) {
+    const auto take = [&]<class Field>(const char* name, const Field& field) {
+      if constexpr (std::is_same_v<Field, ros::Vector3>)
+        file_.append(topic + "/" + name, std::vector<double>{field.x, field.y, field.z});
+      else if constexpr (std::is_same_v<Field, ros::Wrench>)
+        take_fields(topic, field);
+    };
+    M::fields(message, take);
   }
 
   void take_frames(const std::string& topic, double, std::string_view cdr) {

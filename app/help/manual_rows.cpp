@@ -86,8 +86,8 @@ void add_sensors(std::vector<ManualRow>& rows) {
   add_parameters(rows, look.parameters());
   world::CameraNoise camera;
   add_parameters(rows, camera.parameters(), "cameras");
-  world::WrenchNoise wrench;
-  add_parameters(rows, wrench.parameters(), "cameras");
+  for (const world::InstrumentKind& kind : world::instrument_kinds())
+    add_parameters(rows, world::InstrumentNoise(kind).parameters(), "cameras");
 }
 
 // `defaults` is default-constructed.

@@ -3,7 +3,7 @@
 #include "app/python/run_class.h"
 #include "app/sense/point_cloud.h"
 #include "engine/core/check.h"
-#include "plugins/simulation/wrench_sensor.h"
+#include "plugins/simulation/instrument.h"
 
 namespace pedicel::python {
 
@@ -246,15 +246,15 @@ py::dict gentleness_of(Run& self) {
   return all;
 }
 
-py::dict wrenches_of(Run& self) {
-  const auto read = self.alone([](app::SteeredRun& run) {
-    std::vector<std::pair<std::string, simulation::Wrench>> all;
-    for (const simulation::WrenchSensor& one : run.simulation().wrenches())
-      all.emplace_back(one.scene().name, one.reading());
+py::dict readings_of(Run& self, const world::InstrumentKind& kind) {
+  const auto read = self.alone([&](app::SteeredRun& run) {
+    std::vector<std::pair<std::string, Eigen::VectorXd>> all;
+    for (const auto& one : run.simulation().instruments())
+      if (&one->kind() == &kind) all.emplace_back(one->scene().name, one->reading());
     return all;
   });
   py::dict all;
-  for (const auto& [name, wrench] : read) all[name.c_str()] = array_of(Eigen::VectorXd(wrench));
+  for (const auto& [name, reading] : read) all[name.c_str()] = array_of(reading);
   return all;
 }
 
@@ -268,10 +268,15 @@ void add_cameras(py::class_<Run>& run) {
       "was put in), touched and broken (how many), and organs: the same of each one by its name.");
   run.def_property_readonly("gentleness_total", gentleness_total,
                             "The same without the organs one by one, which is quicker.");
-  run.def_property_readonly(
-      "wrenches", wrenches_of,
-      "Force sensors of the scene: a dict of names to (6,) arrays, force (N) and moment (N m) in "
-      "the link's frame, as they were last sampled, with their noise.");
+  for (const world::InstrumentKind& kind : world::instrument_kinds()) {
+    std::string noun = kind.noun;
+    noun[0] = static_cast<char>(std::toupper(noun[0]));
+    run.def_property_readonly(
+        kind.section.c_str(), [&kind](Run& self) { return readings_of(self, kind); },
+        (noun + "s of the scene: a dict of names to (" + std::to_string(3 * kind.vectors.size()) +
+         ",) arrays, " + kind.says + ", as they were last sampled, with their noise.")
+            .c_str());
+  }
   run.def("camera", &take, "camera"_a = "", "width"_a = py::none(), "height"_a = py::none(),
           "rgb"_a = true, "noise"_a = true, "fast"_a = false,
           "What a camera of the scene sees (empty: the first, or one that shows everything): a "

@@ -45,7 +45,7 @@ void Run::reset(const std::optional<long>& wanted_seed, const py::dict& settings
   alone([&](app::SteeredRun& one) {
     // What the scene draws is drawn anew; without it a seed changes nothing, and costs nothing.
     const world::Scene& scene = *one.scene().files.scene;
-    if (wanted_seed && (!scene.vary.empty() || !scene.wrenches.empty()))
+    if (wanted_seed && (!scene.vary.empty() || !scene.instruments.empty()))
       texts.insert(texts.begin(), {"seed", std::to_string(*wanted_seed % 1000000000)});
     // Refused settings leave it at time 0, too.
     try {

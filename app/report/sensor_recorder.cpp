@@ -5,7 +5,7 @@
 
 #include "app/sense/picture_files.h"
 #include "engine/io/atomic_file.h"
-#include "plugins/simulation/wrench_sensor.h"
+#include "plugins/simulation/instrument.h"
 
 namespace pedicel::app {
 
@@ -13,11 +13,9 @@ namespace {
 
 /// Names of the scene as parts of files' names, in their order: "a/b" and "a_b" are two. The first
 /// one keeps the plain name.
-template <class Things>
-std::vector<std::string> file_parts(const Things& things) {
+std::vector<std::string> file_parts(const std::vector<std::string>& names) {
   std::vector<std::string> parts;
-  for (const auto& thing : things) {
-    std::string part = thing.name;
+  for (std::string part : names) {
     for (char& c : part)
       if (c == '/' || c == '\\' || c == '.' || c == ' ') c = '_';
     std::string one = part;
@@ -32,7 +30,7 @@ std::vector<std::string> file_parts(const Things& things) {
 SensorRecorder::SensorRecorder(const simulation::Simulation& simulation, io::OutputFolder& output,
                                PictureTaker* taker)
     : simulation_(simulation), taker_(taker) {
-  open_wrenches(output);
+  open_tables(output);
   if (taker_ && taker_->available()) open_cameras(output);
 }
 
@@ -45,27 +43,38 @@ void SensorRecorder::open_cameras(io::OutputFolder& output) {
   const std::filesystem::path folder = output.file("sensors/");
   sensors_ = std::make_unique<SceneSensors>(simulation_);
   io::write_file_atomically(folder / "things.json", things_json(sensors_->things()).dump(1) + "\n");
-  const std::vector<std::string> parts = file_parts(simulation_.scene().cameras);
+  std::vector<std::string> names;
+  for (const world::SceneCamera& one : simulation_.scene().cameras) names.push_back(one.name);
+  const std::vector<std::string> parts = file_parts(names);
   for (Camera& camera : cameras_)
     camera.folder =
         folder / parts[static_cast<std::size_t>(camera.scene - simulation_.scene().cameras.data())];
 }
 
-void SensorRecorder::open_wrenches(io::OutputFolder& output) {
-  for (const std::string& part : file_parts(simulation_.scene().wrenches))
-    tables_.push_back(std::make_unique<io::CsvWriter>(
-        output.file("wrench_" + part + ".csv"),
-        std::vector<std::string>{"time", "fx", "fy", "fz", "tx", "ty", "tz"}));
+void SensorRecorder::open_tables(io::OutputFolder& output) {
+  for (const world::InstrumentKind& kind : world::instrument_kinds()) {
+    std::vector<std::string> columns = {"time"}, names;
+    for (const world::InstrumentVector& one : kind.vectors)
+      columns.insert(columns.end(), one.columns.begin(), one.columns.end());
+    std::vector<const simulation::Instrument*> own;
+    for (const auto& one : simulation_.instruments())
+      if (&one->kind() == &kind) own.push_back(one.get()), names.push_back(one->scene().name);
+    const std::vector<std::string> parts = file_parts(names);
+    for (std::size_t i = 0; i < own.size(); ++i)
+      tables_.push_back({own[i], std::make_unique<io::CsvWriter>(
+                                     output.file(kind.name + "_" + parts[i] + ".csv"), columns)});
+  }
 }
 
 void SensorRecorder::record() {
-  for (std::size_t i = 0; i < tables_.size(); ++i) {
-    const auto& samples = simulation_.wrenches()[i].new_samples();
-    for (const auto& [time, now] : samples) {
-      const double row[] = {time, now[0], now[1], now[2], now[3], now[4], now[5]};
-      tables_[i]->row(row);
+  std::vector<double> row;
+  for (const Table& table : tables_) {
+    for (const auto& [time, value] : table.instrument->new_samples()) {
+      row = {time};
+      row.insert(row.end(), value.begin(), value.end());
+      table.file->row(row);
     }
-    if (!samples.empty()) tables_[i]->flush();
+    if (!table.instrument->new_samples().empty()) table.file->flush();
   }
   if (!sensors_) return;
   sensors_->remember();

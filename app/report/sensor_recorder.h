@@ -10,8 +10,8 @@
 namespace pedicel::app {
 
 /// Writes what the sensors of a scene say while it runs: for every camera with `sensors` the files
-/// sensors/CAMERA/000000.rgb.png and so on, sensors/things.json, and for every force sensor
-/// wrench_NAME.csv.
+/// sensors/CAMERA/000000.rgb.png and so on, sensors/things.json, and for every instrument
+/// KIND_NAME.csv.
 class SensorRecorder {
  public:
   /// All must outlive it. `taker` may be null, or take no pictures: then there are none.
@@ -28,15 +28,19 @@ class SensorRecorder {
     std::filesystem::path folder;
     long taken = 0;
   };
+  struct Table {
+    const simulation::Instrument* instrument = nullptr;
+    std::unique_ptr<io::CsvWriter> file;
+  };
   void open_cameras(io::OutputFolder& output);
-  void open_wrenches(io::OutputFolder& output);
+  void open_tables(io::OutputFolder& output);
   void take(Camera& camera);
 
   const simulation::Simulation& simulation_;
   PictureTaker* taker_;
   std::unique_ptr<SceneSensors> sensors_;
   std::vector<Camera> cameras_;
-  std::vector<std::unique_ptr<io::CsvWriter>> tables_;
+  std::vector<Table> tables_;
 };
 
 }  // namespace pedicel::app

@@ -1,5 +1,7 @@
 #include "app/topics/frame_topics.h"
 
+#include "plugins/simulation/instrument.h"
+
 namespace pedicel::app {
 
 FrameTopics::FrameTopics(const simulation::Simulation& simulation, TopicSink& sink)
@@ -78,6 +80,10 @@ void FrameTopics::tell(double time) {
     const Pose pose{point_on(model, state, one.element, one.back), state.orientation[one.element]};
     frames.transforms.push_back(transform_of(time, world_frame, one.frame, pose));
   }
+  for (const auto& one : simulation_.instruments())
+    if (const auto pose = one->own_frame())
+      frames.transforms.push_back(
+          transform_of(time, world_frame, simulation::own_frame_name(one->scene()), *pose));
   if (!frames.transforms.empty()) moving_.tell(time, frames);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/topics/camera_topics.h"
 #include "app/topics/frame_topics.h"
@@ -21,6 +22,35 @@ class ClockTopic : public TopicSource {
 
  private:
   Teller<ros::Clock> clock_;
+};
+
+/// /NAME/KIND of the scene's instruments, each at its own rate, with its noise. The stamp is the
+/// sample's.
+class InstrumentTopics : public TopicSource {
+ public:
+  InstrumentTopics(const simulation::Simulation& simulation, TopicSink& sink) : sink_(sink) {
+    for (const auto& one : simulation.instruments())
+      all_.push_back({*one,
+                      sink.add({"/" + topic_part(one->scene().name) + "/" + one->kind().name,
+                                one->message_type(),
+                                Delivery::sensor,
+                                {}}),
+                      one->samples()});
+  }
+  void after_step(double time) override {
+    for (Known& one : all_)
+      if (one.instrument.samples() != std::exchange(one.told, one.instrument.samples()))
+        sink_.write(one.topic, time, one.instrument.message());
+  }
+
+ private:
+  struct Known {
+    const simulation::Instrument& instrument;
+    int topic = 0;
+    long told = 0;  // samples
+  };
+  TopicSink& sink_;
+  std::vector<Known> all_;
 };
 
 /// How many times something of this rate was due by a time. The small addition keeps a time such
@@ -43,14 +73,14 @@ SimulationTopics::SimulationTopics(simulation::Simulation& simulation, TopicSink
     add(std::make_unique<DescriptionTopic>(*robot, sink), rates.states);
     add(std::make_unique<JointTopics>(*robot, sink), rates.states);
     // A sensor of the scene that is called so takes its place.
-    const bool own = std::ranges::any_of(simulation.scene().wrenches, [](const auto& one) {
-      return topic_part(one.name) == "wrist";
+    const bool own = std::ranges::any_of(simulation.instruments(), [](const auto& one) {
+      return one->kind().name == "wrench" && topic_part(one->scene().name) == "wrist";
     });
     if (!own && wrist_link(*robot) >= 0)
       add(std::make_unique<WrenchTopic>(simulation, sink), rates.states);
   }
-  if (!simulation.wrenches().empty())
-    add(std::make_unique<SceneWrenchTopics>(simulation, sink), rates.states);
+  if (!simulation.instruments().empty())
+    add(std::make_unique<InstrumentTopics>(simulation, sink), rates.states);
   add(std::make_unique<FrameTopics>(simulation, sink), rates.states);
   add(std::make_unique<OrganTopic>(simulation, sink), rates.states);
   add(std::make_unique<EventTopic>(simulation, sink), rates.states);

@@ -20,6 +20,27 @@ struct JointState {
   }
 };
 
+struct Imu {
+  static constexpr const char* name = "sensor_msgs/msg/Imu";
+  Header header;
+  Quaternion orientation;
+  std::array<double, 9> orientation_covariance{};  // -1 first: there is no orientation
+  Vector3 angular_velocity;                        // rad/s
+  std::array<double, 9> angular_velocity_covariance{};
+  Vector3 linear_acceleration;  // m/s2
+  std::array<double, 9> linear_acceleration_covariance{};
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit& visit) {
+    visit("header", self.header);
+    visit("orientation", self.orientation);
+    visit("orientation_covariance", self.orientation_covariance);
+    visit("angular_velocity", self.angular_velocity);
+    visit("angular_velocity_covariance", self.angular_velocity_covariance);
+    visit("linear_acceleration", self.linear_acceleration);
+    visit("linear_acceleration_covariance", self.linear_acceleration_covariance);
+  }
+};
+
 struct Image {
   static constexpr const char* name = "sensor_msgs/msg/Image";
   Header header;

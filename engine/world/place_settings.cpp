@@ -136,18 +136,24 @@ bool set_place(Scene& scene, const std::string& key, const std::string& text,
                      ": expected cameras.NAME.eye.x, cameras.NAME.target.x (y, z), "
                      "cameras.NAME.fov or cameras.NAME.noise.KEY of a camera of the scene");
   }
-  if (key.starts_with("wrenches.")) {
-    SceneWrench* wrench = named_in(scene.wrenches, key.substr(9), rest);
-    if (wrench && set_described(wrench->noise, "noise", rest, text, asked)) return true;
-    throw UsageError(asked + ": expected wrenches.NAME.noise.KEY of a force sensor of the scene");
+  for (const InstrumentKind& kind : instrument_kinds()) {
+    if (!key.starts_with(kind.section + ".")) continue;
+    auto own = of_kind(scene, kind);
+    SceneInstrument* one = named_in(own, key.substr(kind.section.size() + 1), rest);
+    if (one && set_described(one->noise, "noise", rest, text, asked)) return true;
+    throw UsageError(asked + ": expected " + kind.section + ".NAME.noise.KEY of one of the scene");
   }
   return false;
 }
 
 std::string place_keys() {
+  std::string of_instruments;
+  for (const InstrumentKind& kind : instrument_kinds())
+    of_instruments += ", " + kind.section + ".NAME.noise.KEY";
   return "plants.NAME.position.x, plants.NAME.yaw, bodies.NAME.position.x, robot.position.x, "
          "cameras.NAME.eye.x, cameras.NAME.target.x, cameras.NAME.fov, cameras.NAME.noise.KEY, "
-         "wrenches.NAME.noise.KEY, loads.angle, loads.azimuth, look.KEY";
+         "loads.angle, loads.azimuth, look.KEY" +
+         of_instruments;
 }
 
 }  // namespace pedicel::world

@@ -10,7 +10,7 @@ namespace pedicel::world {
 ///   plants.NAME.position.x (y, z; m), plants.NAME.yaw (rad, about Z)
 ///   bodies.NAME.position.x, bodies.NAME.yaw, robot.position.x, robot.yaw
 ///   cameras.NAME.eye.x, cameras.NAME.target.x (m), cameras.NAME.fov (rad)
-///   cameras.NAME.noise.KEY, wrenches.NAME.noise.KEY: a number of the sensor's noise
+///   cameras.NAME.noise.KEY, wrenches.NAME.noise.KEY and the like: a number of a sensor's noise
 ///   loads.angle, loads.azimuth (rad): where every load pulls, from straight down, and about Z
 ///   look.KEY (SceneLook)
 /// False where the key is none of these. Throws UsageError where the value is impossible, or there

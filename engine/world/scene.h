@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -148,15 +149,21 @@ struct SceneCamera {
   CameraNoise noise;
 };
 
-/// A force sensor at a link of the robot, in the link's frame, about its origin.
-struct SceneWrench {
-  std::string name, link;
-  /// False: what the link and all beyond it exert on what carries it (a wrist), weight and inertia
-  /// included. True: only what the plants exert on the link (a fingertip).
+/// An instrument on a link of the robot, or on a plant. Each kind has some of the keys.
+struct SceneInstrument {
+  explicit SceneInstrument(const InstrumentKind& of) : noise(of) {}
+  const InstrumentKind& kind() const { return *noise.kind; }
+
+  std::string name;
+  std::string link, organ;  ///< one of them: a link's name, or "PLANT/CURVE" or "PLANT/FRUIT"
+  double at = 1.0;          ///< fraction of the curve's length, from its foot
+  Pose pose;                ///< of its frame, in the link's or in the organ's, whose z is along it
+  /// Of a wrench. False: what the link and all beyond it exert on what carries it (a wrist), weight
+  /// and inertia included. True: only what plants and bodies exert on the link (a fingertip).
   bool touch = false;
   bool tared = false;   ///< less its mean over the first 0.2 s
   double rate = 100.0;  ///< Hz
-  WrenchNoise noise;
+  InstrumentNoise noise;
   SourcePosition where;
 };
 
@@ -203,7 +210,7 @@ struct Scene {
   /// knows effects.
   std::vector<io::YamlPiece> effects;
   std::vector<SceneCamera> cameras;
-  std::vector<SceneWrench> wrenches;
+  std::vector<SceneInstrument> instruments;  ///< kind by kind
   SceneLook look;
   std::vector<VariedNumber> vary;  ///< drawn from the seed where a run begins (drawn_scene())
   std::vector<ScenePicture> pictures;
@@ -211,5 +218,12 @@ struct Scene {
   std::optional<SceneSweep> sweep;
   std::vector<Expectation> expectations;
 };
+
+/// The instruments of a kind, in the scene's order.
+template <class AnyScene>  // Scene, const or not
+auto of_kind(AnyScene& scene, const InstrumentKind& kind) {
+  return scene.instruments |
+         std::views::filter([&kind](const SceneInstrument& one) { return &one.kind() == &kind; });
+}
 
 }  // namespace pedicel::world

@@ -185,8 +185,7 @@ namespace {
 
 /// Those numbers that are not as they are without the key.
 template <class Described>
-void add_described(FlowMap& map, const char* key, Described now) {
-  Described otherwise;
+void add_described(FlowMap& map, const char* key, Described now, Described otherwise) {
   FlowMap inner;
   const std::vector<Parameter> plain_numbers = otherwise.parameters();
   for (const Parameter& one : now.parameters())
@@ -259,23 +258,27 @@ std::string camera(const SceneCamera& camera) {
     sensors += (sensors.empty() ? "" : ", ") + std::string(name_of(sensor));
   if (!sensors.empty()) map.add("sensors", "[" + sensors + "]");
   map.add_unless("rate", camera.rate, plain_camera.rate);
-  add_described(map, "noise", camera.noise);
+  add_described(map, "noise", camera.noise, {});
   return map.text();
 }
 
-std::string wrench(const SceneWrench& wrench) {
+std::string instrument(const SceneInstrument& one) {
+  const SceneInstrument usual(one.kind());
   FlowMap map;
-  map.add("name", io::yaml_word(wrench.name)).add("link", io::yaml_word(wrench.link));
-  if (wrench.touch) map.add("touch", "true");
-  if (wrench.tared) map.add("tared", "true");
-  map.add_unless("rate", wrench.rate, SceneWrench{}.rate);
-  add_described(map, "noise", wrench.noise);
+  map.add("name", io::yaml_word(one.name));
+  if (!one.link.empty()) map.add("link", io::yaml_word(one.link));
+  if (!one.organ.empty()) map.add("organ", plain(one.organ));
+  map.add_unless("at", one.at, usual.at).add_pose(one.pose);
+  if (one.touch) map.add("touch", "true");
+  if (one.tared) map.add("tared", "true");
+  map.add_unless("rate", one.rate, usual.rate);
+  add_described(map, "noise", one.noise, usual.noise);
   return map.text();
 }
 
 std::string look(const SceneLook& look) {
   FlowMap map;
-  add_described(map, "look", look);
+  add_described(map, "look", look, {});
   return map.empty() ? std::string() : map.text().substr(1, map.text().size() - 2) + "\n";
 }
 

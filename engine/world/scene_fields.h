@@ -43,7 +43,7 @@ std::string tie(const SceneTie& tie);
 std::string wind(const SceneWind& wind);
 std::string cut(const SceneCut& cut);
 std::string camera(const SceneCamera& camera);
-std::string wrench(const SceneWrench& wrench);
+std::string instrument(const SceneInstrument& one);
 /// A line "look: {...}"; empty where everything looks as it does by itself.
 std::string look(const SceneLook& look);
 std::string varied(const VariedNumber& number);

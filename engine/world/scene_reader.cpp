@@ -40,15 +40,15 @@ io::Key needed_number_key(std::string_view name) {
 }
 
 /// A list or a map that has keys of its own, described elsewhere.
-io::Key part_key(const char* name, KeyType type, const char* sentence, const std::string& form = "",
-                 const char* otherwise = "none") {
+io::Key part_key(const char* name, KeyType type, const std::string& sentence,
+                 const std::string& form = "", const char* otherwise = "none") {
   return {
       .name = name, .type = type, .otherwise = Told{otherwise}, .form = form, .sentence = sentence};
 }
 
-const io::KeyList& scene_list() {
-  static const std::string at_most_named = "at most " + std::to_string(most_named);
-  static const io::KeyList keys{
+io::KeyList make_scene_list() {
+  const std::string at_most_named = "at most " + std::to_string(most_named);
+  io::KeyList keys{
       "scene",
       "a scene",
       {{.name = "format",
@@ -92,7 +92,6 @@ const io::KeyList& scene_list() {
                 "what robot, contact, plants and sensors do beyond the plain model, below",
                 "at most " + std::to_string(most_effects)),
        part_key("cameras", KeyType::list, "views, below", at_most_named),
-       part_key("wrenches", KeyType::list, "force sensors of the robot, below", at_most_named),
        part_key("look", KeyType::map, "light and colours: [Settings](settings.md#looks)", "",
                 "defaults"),
        part_key("vary", KeyType::map, "what differs from seed to seed, below"),
@@ -100,6 +99,15 @@ const io::KeyList& scene_list() {
        part_key("video", KeyType::map, "film of a run, below", "", "defaults"),
        part_key("sweep", KeyType::map, "a setting with several values, below"),
        part_key("expect", KeyType::list, "what must come out, below")}};
+  auto after = std::ranges::find(keys.keys, "cameras", &io::Key::name) + 1;
+  for (const InstrumentKind& kind : instrument_kinds())
+    after = 1 + keys.keys.insert(after, part_key(kind.section.c_str(), KeyType::list,
+                                                 kind.noun + "s, below", at_most_named));
+  return keys;
+}
+
+const io::KeyList& scene_list() {
+  static const io::KeyList keys = make_scene_list();
   return keys;
 }
 
@@ -167,7 +175,12 @@ void read_things(io::DescribedMap& map, const std::filesystem::path& folder, Sce
 
 void read_views(io::DescribedMap& map, Scene& scene) {
   read_named(map, "cameras", scene.cameras, sections::read_camera);
-  read_named(map, "wrenches", scene.wrenches, sections::read_wrench);
+  for (const InstrumentKind& kind : instrument_kinds()) {
+    std::vector<SceneInstrument> own;
+    read_named(map, kind.section.c_str(), own,
+               [&](const io::YamlNode& node) { return sections::read_instrument(node, kind); });
+    std::ranges::move(own, std::back_inserter(scene.instruments));
+  }
   if (const auto look = map.optional("look")) scene.look = sections::read_look(*look);
   read_list(map, "pictures", scene.pictures, sections::read_picture);
   if (const auto video = map.optional("video")) scene.video = sections::read_video(*video);
@@ -252,9 +265,11 @@ void check_references(io::DescribedMap& map, const Scene& scene, Diagnostics& di
     for (const SceneWaypoint& waypoint : scene.robot->waypoints)
       check_anchor(scene, waypoint.at, diagnostics);
   for (const SceneCamera& camera : scene.cameras) check_anchor(scene, camera.follow, diagnostics);
-  for (const SceneWrench& wrench : scene.wrenches)
-    if (!scene.robot && !wrench.link.empty())
-      diagnostics.error(wrench.where, "a wrench: the scene has no robot");
+  for (const SceneInstrument& one : scene.instruments) {
+    check_organ(scene, one.organ, one.where, diagnostics);
+    if (!scene.robot && !one.link.empty())
+      diagnostics.error(one.where, one.kind().what + ": the scene has no robot");
+  }
   check_vary(scene, diagnostics);
   for (const Expectation& e : scene.expectations) check_expectation(scene, e, diagnostics);
   std::vector<std::string> wanted = {scene.video.camera};

@@ -64,7 +64,7 @@ SceneLoad read_load(const io::YamlNode& node);
 SceneTie read_tie(const io::YamlNode& node);
 SceneCut read_cut(const io::YamlNode& node);
 SceneCamera read_camera(const io::YamlNode& node);
-SceneWrench read_wrench(const io::YamlNode& node);
+SceneInstrument read_instrument(const io::YamlNode& node, const InstrumentKind& kind);
 SceneLook read_look(const io::YamlNode& node);
 ScenePicture read_picture(const io::YamlNode& node);
 SceneVideo read_video(const io::YamlNode& node);

@@ -84,33 +84,65 @@ const io::KeyList& camera_list() {
   return keys;
 }
 
-const io::KeyList& wrench_list() {
-  static const io::KeyList keys{
-      "wrench",
-      "a wrench",
-      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the sensor"},
-       {.name = "link",
-        .type = KeyType::text,
-        .form = "name of a link",
-        .sentence = "where it sits"},
-       {.name = "touch",
-        .type = KeyType::flag,
-        .otherwise = SceneWrench{}.touch,
-        .sentence = "only what plants and bodies exert on that link (a fingertip)"},
-       {.name = "tared",
-        .type = KeyType::flag,
-        .otherwise = SceneWrench{}.tared,
-        .sentence = "less its mean over the first 0.2 s; its table begins once that is known"},
-       {.name = "rate",
-        .unit = "Hz",
-        .otherwise = SceneWrench{}.rate,
-        .bounds = sensor_rates,
-        .sentence = "how often it is sampled"},
-       {.name = "noise",
-        .type = KeyType::map,
-        .otherwise = Told{"none"},
-        .sentence = "[noise](cameras.md#noise) of the sensor"}}};
-  return keys;
+/// Of the keys that instruments have, those of one kind.
+io::KeyList instrument_list(const InstrumentKind& kind) {
+  const SceneInstrument plain(kind);
+  const auto has = [&](const std::string& key) { return std::ranges::count(kind.keys, key) > 0; };
+  io::KeyList list{kind.name, kind.what, {}};
+  list.keys.push_back(
+      {.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the sensor"});
+  if (has("link"))
+    list.keys.push_back(
+        {.name = "link",
+         .type = KeyType::text,
+         .otherwise = has("organ") ? io::Otherwise(Told{"on an organ"}) : io::Needed{},
+         .form = "name of a link",
+         .sentence = "where it sits"});
+  if (has("organ")) {
+    list.keys.push_back({.name = "organ",
+                         .type = KeyType::text,
+                         .otherwise = Told{"on a link"},
+                         .form = "`PLANT/CURVE` or `PLANT/FRUIT`",
+                         .sentence = "where it sits on a plant, in place of `link`"});
+    list.keys.push_back({.name = "at",
+                         .unit = "1",
+                         .otherwise = plain.at,
+                         .bounds = {0.0, 1.0},
+                         .sentence = "fraction of the curve's length, from its foot"});
+  }
+  if (has("position")) list.also = {&pose_keys()};
+  if (has("touch"))
+    list.keys.push_back(
+        {.name = "touch",
+         .type = KeyType::flag,
+         .otherwise = plain.touch,
+         .sentence = "only what plants and bodies exert on that link (a fingertip)"});
+  if (has("tared"))
+    list.keys.push_back(
+        {.name = "tared",
+         .type = KeyType::flag,
+         .otherwise = plain.tared,
+         .sentence = "less its mean over the first 0.2 s; its table begins once that is known"});
+  list.keys.push_back({.name = "rate",
+                       .unit = "Hz",
+                       .otherwise = plain.rate,
+                       .bounds = sensor_rates,
+                       .sentence = "how often it is sampled"});
+  list.keys.push_back({.name = "noise",
+                       .type = KeyType::map,
+                       .otherwise = Told{"none"},
+                       .sentence = "[noise](cameras.md#noise) of the sensor"});
+  return list;
+}
+
+/// One a kind, in their order.
+const std::vector<io::KeyList>& instrument_lists() {
+  static const std::vector<io::KeyList> lists = [] {
+    std::vector<io::KeyList> all;
+    for (const InstrumentKind& kind : instrument_kinds()) all.push_back(instrument_list(kind));
+    return all;
+  }();
+  return lists;
 }
 
 template <class Noise>
@@ -167,7 +199,9 @@ void read_focal(io::DescribedMap& map, SceneCamera& camera) {
 }  // namespace
 
 std::vector<const io::KeyList*> sensor_keys() {
-  return {&camera_list(), &wrench_list()};
+  std::vector<const io::KeyList*> all = {&camera_list()};
+  for (const io::KeyList& list : instrument_lists()) all.push_back(&list);
+  return all;
 }
 
 SceneCamera read_camera(const io::YamlNode& node) {
@@ -195,18 +229,25 @@ SceneCamera read_camera(const io::YamlNode& node) {
   return camera;
 }
 
-SceneWrench read_wrench(const io::YamlNode& node) {
-  SceneWrench wrench;
-  io::DescribedMap map(node, wrench_list());
-  wrench.where = node.position();
-  wrench.name = map.text("name");
-  wrench.link = map.text("link");
-  wrench.touch = map.boolean("touch");
-  wrench.tared = map.boolean("tared");
-  wrench.rate = map.number("rate");
-  read_described(map, "noise", wrench.noise);
+SceneInstrument read_instrument(const io::YamlNode& node, const InstrumentKind& kind) {
+  SceneInstrument one(kind);
+  const io::KeyList& keys = *std::ranges::find(instrument_lists(), kind.name, &io::KeyList::name);
+  io::DescribedMap map(node, keys);
+  one.where = node.position();
+  one.name = map.text("name");
+  if (keys.find("link")) one.link = map.text("link");
+  if (keys.find("organ")) {
+    one.organ = map.text("organ");
+    one.at = map.number("at");
+    if (one.link.empty() == one.organ.empty()) map.error(kind.what + ": expected link or organ");
+  }
+  if (keys.find("orientation")) one.pose = read_pose(map);
+  if (keys.find("touch")) one.touch = map.boolean("touch");
+  if (keys.find("tared")) one.tared = map.boolean("tared");
+  one.rate = map.number("rate");
+  read_described(map, "noise", one.noise);
   map.finish();
-  return wrench;
+  return one;
 }
 
 SceneLook read_look(const io::YamlNode& node) {

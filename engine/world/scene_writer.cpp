@@ -15,12 +15,12 @@ std::string line(const std::string& key, const std::string& value) {
   return key + ": " + value + "\n";
 }
 
-template <class Item, class Text>
-std::string list(const std::string& key, const std::vector<Item>& items, const Text& text,
+template <class Items, class Text>
+std::string list(const std::string& key, Items&& items, const Text& text,
                  const std::string& indent = "") {
   if (items.empty()) return {};
   std::string lines = indent + key + ":\n";
-  for (const Item& item : items) lines += indent + "  - " + text(item) + "\n";
+  for (const auto& item : items) lines += indent + "  - " + text(item) + "\n";
   return lines;
 }
 
@@ -104,7 +104,9 @@ std::string things(const Scene& scene, const std::filesystem::path& folder) {
   text += list("cuts", scene.cuts, fields::cut);
   text += list("effects", scene.effects, io::piece_text);
   text += list("cameras", scene.cameras, fields::camera);
-  text += list("wrenches", scene.wrenches, fields::wrench) + fields::look(scene.look);
+  for (const InstrumentKind& kind : instrument_kinds())
+    text += list(kind.section.c_str(), of_kind(scene, kind), fields::instrument);
+  text += fields::look(scene.look);
   text += list("pictures", scene.pictures, fields::picture) + video(scene.video);
   if (scene.sweep)
     text += line("sweep", FlowMap()

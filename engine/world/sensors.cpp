@@ -1,5 +1,7 @@
 #include "engine/world/sensors.h"
 
+#include <algorithm>
+
 namespace pedicel::world {
 
 std::vector<Parameter> CameraNoise::parameters() {
@@ -17,19 +19,44 @@ std::vector<Parameter> CameraNoise::parameters() {
       {"latency", "s", &latency, 0.0, 10.0, "Delay of what the sensor says."}};
 }
 
-std::vector<Parameter> WrenchNoise::parameters() {
-  return {
-      {"force_std", "N", &force_std, 0.0, 1.0e3, "Standard deviation of each sample's force."},
-      {"moment_std", "N m", &moment_std, 0.0, 1.0e3, "Standard deviation of each sample's moment."},
-      {"force_bias", "N", &force_bias, 0.0, 1.0e3,
-       "Standard deviation of a constant that is drawn once."},
-      {"moment_bias", "N m", &moment_bias, 0.0, 1.0e3,
-       "Standard deviation of a constant that is drawn once."},
-      {"force_walk", "N", &force_walk, 0.0, 1.0e3,
-       "Standard deviation of a random walk after 1 s."},
-      {"moment_walk", "N m", &moment_walk, 0.0, 1.0e3,
-       "Standard deviation of a random walk after 1 s."},
-      {"latency", "s", &latency, 0.0, 10.0, "Delay of what the sensor says."}};
+const std::vector<InstrumentKind>& instrument_kinds() {
+  static const std::vector<InstrumentKind> kinds = {
+      {"wrench",
+       "wrenches",
+       "a wrench",
+       "force sensor",
+       "force (N) and moment (N m) in the link's frame",
+       {"link", "touch", "tared"},
+       {{"force", "N", {"fx", "fy", "fz"}}, {"moment", "N m", {"tx", "ty", "tz"}}}},
+      {"imu",
+       "imus",
+       "an IMU",
+       "IMU",
+       "acceleration less gravity (m/s2) and angular velocity (rad/s) in its own frame",
+       {"link", "organ", "position"},
+       {{"acceleration", "m/s2", {"ax", "ay", "az"}}, {"rate", "rad/s", {"wx", "wy", "wz"}}}}};
+  return kinds;
+}
+
+const InstrumentKind& instrument_kind(std::string_view name) {
+  return *std::ranges::find(instrument_kinds(), name, &InstrumentKind::name);
+}
+
+std::vector<Parameter> InstrumentNoise::parameters() {
+  std::vector<Parameter> all;
+  const auto add = [&](const char* word, double Size::*size, const std::string& sentence,
+                       bool of_vector) {
+    for (std::size_t v = 0; v < sizes.size(); ++v) {
+      const InstrumentVector& one = kind->vectors[v];
+      all.push_back({one.name + word, one.unit, &(sizes[v].*size), 0.0, 1.0e3,
+                     "Standard deviation of " + sentence + (of_vector ? one.name + "." : "")});
+    }
+  };
+  add("_std", &Size::std, "each sample's ", true);
+  add("_bias", &Size::bias, "a constant that is drawn once.", false);
+  add("_walk", &Size::walk, "a random walk after 1 s.", false);
+  all.push_back({"latency", "s", &latency, 0.0, 10.0, "Delay of what the sensor says."});
+  return all;
 }
 
 std::string_view name_of(Sensor sensor) {

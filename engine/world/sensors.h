@@ -21,12 +21,40 @@ struct CameraNoise {
   std::vector<Parameter> parameters();
 };
 
-/// What a real force sensor adds. Each of its six numbers has a noise of its own.
-struct WrenchNoise {
-  double force_std = 0.0, moment_std = 0.0;    ///< N, N m, of each sample
-  double force_bias = 0.0, moment_bias = 0.0;  ///< N, N m, of a constant
-  double force_walk = 0.0, moment_walk = 0.0;  ///< N, N m, of a random walk after 1 s
-  double latency = 0.0;                        ///< s
+/// A vector that an instrument says.
+struct InstrumentVector {
+  std::string name, unit;              ///< "force", "N"
+  std::array<std::string, 3> columns;  ///< "fx", "fy", "fz"
+};
+
+/// A kind of instrument on a robot or a plant. Scene files, `--set`, logs, topics, Python and the
+/// manual walk instrument_kinds().
+struct InstrumentKind {
+  std::string name;     ///< "wrench": of its class, files, topics and columns
+  std::string section;  ///< "wrenches": its list in a scene file, and in Python
+  std::string what;     ///< "a wrench": in errors
+  std::string noun;     ///< "force sensor"
+  std::string says;     ///< what its numbers are, for Python
+  /// Keys beside name, rate and noise. With `organ` there is `at`, with `position` `orientation`.
+  std::vector<std::string> keys;
+  std::vector<InstrumentVector> vectors;
+};
+const std::vector<InstrumentKind>& instrument_kinds();
+/// That must be one.
+const InstrumentKind& instrument_kind(std::string_view name);
+
+/// What a real instrument adds. Each of its numbers has a noise of its own.
+struct InstrumentNoise {
+  struct Size {
+    double std = 0.0;   ///< of each sample
+    double bias = 0.0;  ///< of a constant
+    double walk = 0.0;  ///< of a random walk after 1 s
+  };
+  explicit InstrumentNoise(const InstrumentKind& of) : kind(&of), sizes(of.vectors.size()) {}
+
+  const InstrumentKind* kind;
+  std::vector<Size> sizes;  ///< one a vector, in its unit
+  double latency = 0.0;     ///< s
 
   std::vector<Parameter> parameters();
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "plugins/simulation/instrument.h"
 #include "plugins/simulation/place.h"
 #include "plugins/simulation/plants/organ_contacts.h"
 #include "plugins/simulation/scene_assets.h"
@@ -148,6 +149,18 @@ void add_plants(Channels& all, const Simulation& simulation) {
                  }});
 }
 
+void add_instruments(Channels& all, const Simulation& simulation) {
+  for (const auto& one : simulation.instruments())
+    for (std::size_t i = 0; i < 3 * one->kind().vectors.size(); ++i) {
+      const world::InstrumentVector& vector = one->kind().vectors[i / 3];
+      std::string unit = vector.unit;
+      std::erase(unit, ' ');
+      all.push_back(
+          {one->kind().name + "_" + one->scene().name + "_" + vector.columns[i % 3] + "_" + unit,
+           [&one, i] { return one->reading()[static_cast<long>(i)]; }});
+    }
+}
+
 }  // namespace
 
 std::vector<Channel> channels_of(const Simulation& simulation) {
@@ -159,6 +172,7 @@ std::vector<Channel> channels_of(const Simulation& simulation) {
       add_fruit(all, simulation, p, f);
   add_colliders(all, simulation);
   add_organs(all, simulation);
+  add_instruments(all, simulation);
   return all;
 }
 

@@ -20,8 +20,8 @@ struct Channel {
 std::vector<Channel> channels_of(const Simulation& simulation);
 
 /// Adds the columns of log.csv: robot joints and torques, tool, contact force per link, organ and
-/// fruit, strain of every fruit's stalk against its thresholds, energies. Organs are left out where
-/// there are more than 60 of them (a forest), then each plant has one column.
+/// fruit, strain of every fruit's stalk against its thresholds, energies, instruments. Organs are
+/// left out where there are more than 60 of them (a forest), then each plant has one column.
 void add_channels(world::Recorder& recorder, const Simulation& simulation);
 
 /// The record of a fruit that came off, as events.csv has it.

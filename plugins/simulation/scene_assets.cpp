@@ -5,6 +5,7 @@
 #include "plugins/discrepancy/scene/state_changes.h"
 #include "plugins/simulation/plants/rod_options.h"
 #include "plugins/simulation/plants/wind_field.h"
+#include "plugins/simulation/robot_control.h"
 #include "plugins/simulation/scene_plants.h"
 
 namespace pedicel::simulation {

@@ -6,10 +6,10 @@
 #include "engine/world/scene_writer.h"
 #include "plugins/simulation/giving_robot.h"
 #include "plugins/simulation/held_organs.h"
+#include "plugins/simulation/instrument.h"
 #include "plugins/simulation/place.h"
 #include "plugins/simulation/scene_assets.h"
 #include "plugins/simulation/scene_contacts.h"
-#include "plugins/simulation/wrench_sensor.h"
 
 namespace pedicel::simulation {
 
@@ -42,16 +42,6 @@ std::string things_of(world::Scene scene) {
   things.wind = scene.wind;
   things.effects = std::move(scene.effects);
   return world::scene_text_without_plants(things, {});
-}
-
-std::vector<WrenchGauge> gauges_of(const SceneAssets& assets) {
-  std::vector<WrenchGauge> gauges;
-  if (!assets.effects) return gauges;
-  for (const discrepancy::SceneState::Gauge& gauge : assets.effects->state.gauges) {
-    gauges.push_back({gauge.gain, {}});
-    gauges.back().bias << gauge.force, gauge.moment;
-  }
-  return gauges;
 }
 
 }  // namespace
@@ -118,11 +108,8 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
   cutting_->set_released([this](int plant, int body) { contacts_->add_fallen(plant, body); });
   measurements_ = std::make_unique<Measurements>(*rods_, plant_step(), colliders());
   gentleness_ = std::make_unique<Gentleness>(*rods_, plant_step());
-  if (robot_ && !scene_.wrenches.empty()) {
-    wrenches_ = std::make_unique<WrenchSensors>(scene_, *robot_, plant_step(), world_,
-                                                gauges_of(*assets_), diagnostics);
-    if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
-  }
+  instruments_ = std::make_unique<Instruments>(*this, diagnostics);
+  if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
   // Participants of one phase act in the order in which they join.
   // Loads and cuts first: what a scene does at a time holds for the whole of that step.
   world_.add(*loads_);
@@ -140,7 +127,7 @@ Simulation::Simulation(std::shared_ptr<const SceneAssets> assets)
     world_.add(*measurements_);
     world_.add(*gentleness_);
   }
-  if (wrenches_) world_.add(*wrenches_);
+  world_.add(*instruments_);
   // Errors have thrown above, so warnings are all that is left.
   for (const Diagnostic& warning : diagnostics.all()) notes_.push_back(to_string(warning));
 }
@@ -155,10 +142,8 @@ const coupling::ColliderSet& Simulation::colliders() const {
   return contacts_->colliders();
 }
 
-// Who asks gets a list in any case, and need not know whether the scene has sensors.
-const std::vector<WrenchSensor>& Simulation::wrenches() const {
-  static const std::vector<WrenchSensor> none;
-  return wrenches_ ? wrenches_->all() : none;
+const std::vector<std::unique_ptr<Instrument>>& Simulation::instruments() const {
+  return instruments_->all();
 }
 
 void Simulation::add_plants(Diagnostics& diagnostics) {

@@ -29,8 +29,8 @@ struct SceneAssets;
 class GivingRobot;
 class HeldOrgans;
 class SceneContacts;
-class WrenchSensor;
-class WrenchSensors;
+class Instrument;
+class Instruments;
 
 /// A scene brought to life: Bullet's world, the robot, the plants and what they feel of each other.
 class Simulation {
@@ -72,8 +72,8 @@ class Simulation {
   const SceneContacts& contacts() const { return *contacts_; }
   /// Null where no joint gives way.
   const GivingRobot* giving() const { return giving_.get(); }
-  /// The force sensors of the scene, in its order.
-  const std::vector<WrenchSensor>& wrenches() const;
+  /// Of the scene, in its order.
+  const std::vector<std::unique_ptr<Instrument>>& instruments() const;
   /// Null where the scene has no robot.
   const RobotControl* robot() const { return robot_.get(); }
   RobotControl* robot() { return robot_.get(); }
@@ -103,7 +103,7 @@ class Simulation {
   std::unique_ptr<SceneContacts> contacts_;
   std::unique_ptr<Measurements> measurements_;
   std::unique_ptr<Gentleness> gentleness_;
-  std::unique_ptr<WrenchSensors> wrenches_;  // null: the scene has none
+  std::unique_ptr<Instruments> instruments_;
   std::vector<std::string> notes_;
 };
 

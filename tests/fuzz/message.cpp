@@ -36,6 +36,7 @@ constexpr void (*readers[])(const std::string&) = {
     read<ros::JointTrajectory>,
     read<ros::MarkerArray>,
     read<ros::CameraInfo>,
+    read<ros::Imu>,
     read<ros::PointCloud2>,
     read<ros::DynamicJointState>,
     read<ros::GetEntities::Request>,

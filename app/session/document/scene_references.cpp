@@ -43,7 +43,11 @@ bool tie_means(const world::SceneTie& tie, const std::string& name) {
   return means(tie.organ, name) || means(tie.to_organ, name);
 }
 
-/// By its tool a robot cuts; its links carry force sensors.
+bool sits_on(const world::SceneInstrument& instrument, const std::string& name) {
+  return means(instrument.organ, name) || (name == "robot" && !instrument.link.empty());
+}
+
+/// By its tool a robot cuts.
 bool cut_means(const world::SceneCut& cut, const std::string& name) {
   return means(cut.organ, name) || (name == "robot" && !cut.time);
 }
@@ -150,7 +154,10 @@ std::vector<std::string> broken_references(const Document& document) {
     if (!has_organ(document, cut.organ)) add(cut.organ);
     if (!cut.time && !scene.robot) add("robot");
   }
-  if (!scene.wrenches.empty() && !scene.robot) add("robot");
+  for (const auto& one : scene.instruments) {
+    if (!one.link.empty() && !scene.robot) add("robot");
+    if (!one.organ.empty() && !has_organ(document, one.organ)) add(one.organ);
+  }
   for (const auto& e : scene.expectations) {
     if (!e.fruit.empty() && !has_fruit(document, e.fruit)) add(e.fruit);
     if (!e.plant.empty() && !find_plant(document, e.plant)) add(e.plant);
@@ -178,8 +185,10 @@ std::string references_to(const Document& document, const std::string& name) {
   if (loads) add(counted(loads, "load"));
   if (ties) add(counted(ties, "tie"));
   if (cuts) add(counted(cuts, "cut"));
-  if (name == "robot" && !scene.wrenches.empty())
-    add(counted(std::ssize(scene.wrenches), "force sensor"));
+  for (const world::InstrumentKind& kind : world::instrument_kinds())
+    if (const auto count = std::ranges::count_if(
+            of_kind(scene, kind), [&](const auto& one) { return sits_on(one, name); }))
+      add(counted(count, kind.noun));
   if (const long keys = keys_that_mean(scene, name)) add(counted(keys, "varied key"));
   if (expectations) add(counted(expectations, "expectation"));
   if (cameras) add(counted(cameras, "camera") + " that follow" + (cameras == 1 ? "s" : "") + " it");
@@ -192,7 +201,7 @@ void clear_references(Document& document, const std::string& name) {
   std::erase_if(scene.loads, [&](const auto& load) { return means(load.target, name); });
   std::erase_if(scene.ties, [&](const auto& tie) { return tie_means(tie, name); });
   std::erase_if(scene.cuts, [&](const auto& cut) { return cut_means(cut, name); });
-  if (name == "robot") scene.wrenches.clear();
+  std::erase_if(scene.instruments, [&](const auto& one) { return sits_on(one, name); });
   std::erase_if(scene.expectations, [&](const auto& e) { return means(e, name); });
   std::erase_if(scene.vary, [&](const auto& one) { return key_means(one.key, name); });
   if (scene.sweep && key_means(scene.sweep->key, name)) {
@@ -232,6 +241,7 @@ void rename_references(Document& document, ThingKind kind, const std::string& na
   for (auto& load : scene.loads) rename(load.target, name, to);
   for (auto& tie : scene.ties) rename(tie.organ, name, to), rename(tie.to_organ, name, to);
   for (auto& cut : scene.cuts) rename(cut.organ, name, to);
+  for (auto& one : scene.instruments) rename(one.organ, name, to);
 }
 
 void rename_organ_references(Document& document, const std::string& plant, const std::string& name,
@@ -256,6 +266,7 @@ void rename_organ_references(Document& document, const std::string& plant, const
   for (auto& load : scene.loads) any |= renamed(load.target);
   for (auto& tie : scene.ties) any |= renamed(tie.organ), any |= renamed(tie.to_organ);
   for (auto& cut : scene.cuts) any |= renamed(cut.organ);
+  for (auto& one : scene.instruments) any |= renamed(one.organ);
   if (any) document.edit_scene() = std::move(scene);
 }
 

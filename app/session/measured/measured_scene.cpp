@@ -57,9 +57,9 @@ void MeasuredScene::start_diagnosis(int threads) {
 // Whether the scene itself has the sensors that measured.
 bool MeasuredScene::has_sensors() const {
   return std::ranges::all_of(experiment_->wrenches, [&](const discrepancy::WrenchSensor& sensor) {
-    return std::ranges::any_of(experiment_->scene.wrenches, [&](const world::SceneWrench& own) {
-      return own.name == sensor.name;
-    });
+    return std::ranges::any_of(
+        of_kind(experiment_->scene, world::instrument_kind("wrench")),
+        [&](const world::SceneInstrument& own) { return own.name == sensor.name; });
   });
 }
 

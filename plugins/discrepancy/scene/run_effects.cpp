@@ -18,7 +18,7 @@ SceneExperiment without_trials(const world::Scene& scene, const robot::RobotDesc
     named.name = plant.name;
     experiment.plants.push_back(std::move(named));
   }
-  for (const world::SceneWrench& wrench : scene.wrenches)
+  for (const world::SceneInstrument& wrench : of_kind(scene, world::instrument_kind("wrench")))
     experiment.wrenches.push_back({wrench.name, -1, wrench.tared});
   for (const world::SceneCamera& camera : scene.cameras) {
     Camera named;

@@ -45,7 +45,7 @@ world::Scene scene_of(const SceneExperiment& experiment, double dt) {
   scene.robot->waypoints.clear();
   scene.robot->trajectory.clear();
   scene.robot->recorded.clear();
-  scene.wrenches.clear();
+  scene.instruments.clear();
   scene.cameras.clear();
   scene.effects.clear();  // they are in the member's state
   return scene;

@@ -62,15 +62,17 @@ class Writer {
 
   // Sensors whose effects the scene has write what the experiment's measured.
   void add_sensors() {
+    const world::InstrumentKind& kind = world::instrument_kind("wrench");
     for (const WrenchSensor& sensor : experiment_.wrenches) {
       const bool known = std::ranges::any_of(
-          scene_.wrenches, [&](const world::SceneWrench& one) { return one.name == sensor.name; });
+          of_kind(scene_, kind),
+          [&](const world::SceneInstrument& one) { return one.name == sensor.name; });
       if (known) continue;
-      world::SceneWrench own;
+      world::SceneInstrument own(kind);
       own.name = sensor.name;
       own.link = experiment_.robot.links[static_cast<std::size_t>(sensor.link)].name;
       own.tared = sensor.tared;
-      scene_.wrenches.push_back(own);
+      scene_.instruments.push_back(own);
     }
   }
 

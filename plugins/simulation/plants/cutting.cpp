@@ -72,6 +72,11 @@ std::optional<Cutting::Carried> Cutting::carried(int plant, int fruit) const {
   return found == carried_.end() ? std::nullopt : std::optional(found->second);
 }
 
+int Cutting::body_with(int plant, int element) const {
+  const auto found = bodies_.find({plant, element});
+  return found == bodies_.end() ? -1 : found->second;
+}
+
 void Cutting::act(world::SimWorld&, world::WorldReport&) {
   for (Planned& one : planned_) {
     if (one.done || !is_due(one)) continue;
@@ -99,6 +104,7 @@ void Cutting::cut_at(const PlaceOnPlant& place, const std::string& organ) {
   for (int n = 2; world_.body_index(body.name) >= 0; ++n)
     body.name = organ + "_cut_" + std::to_string(n);
   const int added = world_.add_body(body);
+  for (const int e : off.elements) bodies_[{place.plant, e}] = added;
   for (const int f : off.fruits) {
     const cosserat::Fruit& fruit = model.fruits[f];
     carried_[{place.plant, f}] = {

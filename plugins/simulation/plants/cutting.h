@@ -47,6 +47,8 @@ class Cutting : public world::Participant {
     Vec3 stalk_B = Vec3::Zero();  ///< m, of where its stalk begins
   };
   std::optional<Carried> carried(int plant, int fruit) const;
+  /// The body that a segment fell with; -1: it was not cut off.
+  int body_with(int plant, int element) const;
 
   /// What was cut so far, with cause "cut".
   const std::vector<world::Event>& events() const { return events_; }
@@ -67,6 +69,7 @@ class Cutting : public world::Participant {
   std::vector<Planned> planned_;
   std::vector<world::Event> events_;
   std::map<std::pair<int, int>, Carried> carried_;  // of plant and fruit
+  std::map<std::pair<int, int>, int> bodies_;       // of plant and element
 };
 
 }  // namespace pedicel::simulation

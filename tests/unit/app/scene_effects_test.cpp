@@ -2,9 +2,9 @@
 
 #include "engine/world/scene_reader.h"
 #include "engine/world/scene_writer.h"
+#include "plugins/simulation/instrument.h"
 #include "plugins/simulation/scene_assets.h"
 #include "plugins/simulation/simulation.h"
-#include "plugins/simulation/wrench_sensor.h"
 #include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
 namespace pedicel::app {
@@ -19,7 +19,7 @@ class RunOfScene : public testing::Test {
  protected:
   struct Said {
     Vec3 tip, nail;
-    simulation::Wrench wrench;
+    Eigen::Matrix<double, 6, 1> wrench;
     double reading = 0.0;  // rad
   };
 
@@ -53,7 +53,7 @@ class RunOfScene : public testing::Test {
     said.tip = cosserat::point_on(model, simulation.rods().state(0), last, 0.0);
     const simulation::RobotControl& robot = *simulation.robot();
     said.nail = robot.link_pose(robot.description().link("finger")) * Vec3(0, 0, 0.1);
-    said.wrench = simulation.wrenches().front().reading();
+    said.wrench = simulation.instruments().front()->reading();
     said.reading = robot.reading(0);
     return said;
   }

@@ -80,6 +80,11 @@ TEST(PublishedFields, OfSensors) {
   EXPECT_EQ(lines<RegionOfInterest>(),
             "sensor_msgs/msg/RegionOfInterest: uint32 x_offset; uint32 y_offset; uint32 height; "
             "uint32 width; bool do_rectify;");
+  EXPECT_EQ(lines<Imu>(),
+            "sensor_msgs/msg/Imu: std_msgs/Header header; geometry_msgs/Quaternion orientation; "
+            "float64[9] orientation_covariance; geometry_msgs/Vector3 angular_velocity; "
+            "float64[9] angular_velocity_covariance; geometry_msgs/Vector3 linear_acceleration; "
+            "float64[9] linear_acceleration_covariance;");
   EXPECT_EQ(lines<CameraInfo>(),
             "sensor_msgs/msg/CameraInfo: std_msgs/Header header; uint32 height; uint32 width; "
             "string distortion_model; float64[] d; float64[9] k; float64[9] r; float64[12] p; "

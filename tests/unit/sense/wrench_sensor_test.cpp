@@ -1,5 +1,3 @@
-#include "plugins/simulation/wrench_sensor.h"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -11,12 +9,14 @@
 #include "app/report/sensor_recorder.h"
 #include "engine/io/atomic_file.h"
 #include "engine/world/scene_reader.h"
+#include "plugins/simulation/instrument.h"
 #include "plugins/simulation/simulation.h"
 
 namespace pedicel::app {
 namespace {
 
 namespace fs = std::filesystem;
+using Wrench = Eigen::Matrix<double, 6, 1>;
 
 /// A hand on a vertical rail, turned by a quarter about Y, with a finger on it: 0.5 kg and 0.2 kg.
 const char* const robot = R"(<robot name="lift">
@@ -57,12 +57,12 @@ TEST_F(WrenchTest, AnArmAtRestIsFeltByItsWeight) {
   const auto sim = simulation("{name: wrist, link: hand}, {name: tip, link: finger}");
   for (int i = 0; i < 300; ++i) sim->step();
   // The hand's frame is turned by a quarter about Y: its X points down.
-  const simulation::Wrench wrist = sim->wrenches()[0].exact(), tip = sim->wrenches()[1].exact();
+  const Wrench wrist = sim->instruments()[0]->exact(), tip = sim->instruments()[1]->exact();
   EXPECT_NEAR(wrist[0], 0.7 * 9.81, 1e-6);
   EXPECT_NEAR(wrist.segment<2>(1).norm(), 0.0, 1e-6);
   // The hand's mass is 30 mm beside its origin along Y, the finger's straight below it.
   EXPECT_LT((wrist.tail<3>() - Vec3(0, 0, -0.03 * 0.5 * 9.81)).norm(), 1e-6);
-  EXPECT_LT((tip - (simulation::Wrench() << 0, 0, -0.2 * 9.81, 0, 0, 0).finished()).norm(), 1e-6);
+  EXPECT_LT((tip - (Wrench() << 0, 0, -0.2 * 9.81, 0, 0, 0).finished()).norm(), 1e-6);
 }
 
 TEST_F(WrenchTest, ABodyThatLiesOnAFingerIsFelt) {
@@ -71,7 +71,7 @@ TEST_F(WrenchTest, ABodyThatLiesOnAFingerIsFelt) {
                               "bodies: [{name: load, box: [0.1, 0.03, 0.03], mass: 0.3, "
                               "position: [0.05, 0, 0.826]}]\n");
   for (int i = 0; i < 800; ++i) sim->step();
-  const simulation::Wrench wrist = sim->wrenches()[0].exact(), tip = sim->wrenches()[1].exact();
+  const Wrench wrist = sim->instruments()[0]->exact(), tip = sim->instruments()[1]->exact();
   EXPECT_NEAR(tip[2], -0.3 * 9.81, 0.05);
   EXPECT_NEAR(tip[4], 0.05 * 0.3 * 9.81, 0.01);  // 50 mm along X
   EXPECT_NEAR(wrist[0], (0.7 + 0.3) * 9.81, 0.05);
@@ -101,7 +101,7 @@ TEST_F(WrenchTest, MotionTakesItsPart) {
     const Vec3 expected = 0.7 * (Vec3(0, 0, -9.81) - acceleration);
     const int hand = sim->robot()->description().link("hand");
     const Vec3 felt =
-        sim->robot()->link_pose(hand).rotation * Vec3(sim->wrenches()[0].exact().head<3>());
+        sim->robot()->link_pose(hand).rotation * Vec3(sim->instruments()[0]->exact().head<3>());
     EXPECT_LT((felt - expected).norm(), 1e-6 * (1.0 + expected.norm())) << i;
   }
 }
@@ -115,40 +115,40 @@ TEST_F(WrenchTest, NoiseIsTheSameForASeedAndAsLargeAsItSays) {
   constexpr int count = 800;
   for (int i = 0; i < count; ++i) {
     one->step(), other->step();
-    EXPECT_EQ(one->wrenches()[0].reading(), other->wrenches()[0].reading());
-    const double error = one->wrenches()[0].reading()[1] - one->wrenches()[0].exact()[1];
+    EXPECT_EQ(one->instruments()[0]->reading(), other->instruments()[0]->reading());
+    const double error = one->instruments()[0]->reading()[1] - one->instruments()[0]->exact()[1];
     if (i < 100) continue;
     sum += error, squares += error * error;
   }
   const double mean = sum / (count - 100);
   EXPECT_NEAR(std::sqrt(squares / (count - 100) - mean * mean), 0.1, 0.015);
   EXPECT_GT(std::abs(mean), 0.02) << "the bias";
-  EXPECT_EQ(one->wrenches()[0].samples(), count);
+  EXPECT_EQ(one->instruments()[0]->samples(), count);
 }
 
 TEST_F(WrenchTest, ATaredSensorBeginsAtZero) {
   const auto sim = simulation("{name: wrist, link: hand, tared: true, rate: 100}");
   for (int i = 0; i < 400; ++i) sim->step();
-  EXPECT_LT(sim->wrenches()[0].reading().norm(), 1e-3);
-  EXPECT_EQ(sim->wrenches()[0].samples(), 40);
+  EXPECT_LT(sim->instruments()[0]->reading().norm(), 1e-3);
+  EXPECT_EQ(sim->instruments()[0]->samples(), 40);
 }
 
 TEST_F(WrenchTest, ATaredSensorIsLessTheMeanOfAllOfItsFirstSamples) {
   const auto sim = simulation(
       "{name: wrist, link: hand, tared: true, rate: 100, noise: {force_std: 1}}, "
       "{name: raw, link: hand, rate: 100, noise: {force_std: 1}}");
-  std::vector<simulation::WrenchSensor::Sample> tared;
+  std::vector<simulation::Instrument::Sample> tared;
   for (int i = 0; i < 400; ++i) {
     sim->step();
-    const auto& fresh = sim->wrenches()[0].new_samples();
+    const auto& fresh = sim->instruments()[0]->new_samples();
     if (sim->world().time() < 0.2 - 1e-6) {
       EXPECT_TRUE(fresh.empty()) << sim->world().time();
-      EXPECT_EQ(sim->wrenches()[0].reading().norm(), 0.0);
+      EXPECT_EQ(sim->instruments()[0]->reading().norm(), 0.0);
     }
     tared.insert(tared.end(), fresh.begin(), fresh.end());
   }
   ASSERT_EQ(tared.size(), 40U);
-  simulation::Wrench sum = simulation::Wrench::Zero();
+  Wrench sum = Wrench::Zero();
   double smallest = 1e9, before = -1.0;
   for (const auto& one : tared) {
     EXPECT_GT(one.time, before);

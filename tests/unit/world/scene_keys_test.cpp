@@ -48,6 +48,7 @@ TEST(SceneKeys, EachThatIsDescribedIsRead) {
       {"ground", {"ground: {%}"}},
       {"camera", {"cameras: [{%}]", "cameras: [{orientation: [0, 0, 0, 1], %}]"}},
       {"wrench", {"wrenches: [{%}]"}},
+      {"imu", {"imus: [{%}]"}},
       {"picture", {"pictures: [{%}]"}},
       {"video", {"video: {%}"}},
       {"sweep", {"sweep: {%}"}},

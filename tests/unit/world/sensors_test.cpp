@@ -126,9 +126,9 @@ TEST(PlaceSettings, PutThingsWhereTheySay) {
   EXPECT_EQ(scene.cameras[0].field_of_view, 0.4);
   EXPECT_EQ(scene.cameras[0].noise.latency, 0.07);
   EXPECT_EQ(scene.cameras[0].noise.depth_std, 0.002);  // as the file says
-  scene.wrenches.emplace_back().name = "wrist";
+  scene.instruments.emplace_back(instrument_kind("wrench")).name = "wrist";
   set("wrenches.wrist.noise.force_std", "0.3");
-  EXPECT_EQ(scene.wrenches[0].noise.force_std, 0.3);
+  EXPECT_EQ(scene.instruments[0].noise.sizes[0].std, 0.3);
   // A key of the plant itself stays one.
   set("plants.wood.material.density", "500");
   EXPECT_EQ(scene.plants[0].set.back().key, "material.density");
