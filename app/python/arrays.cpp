@@ -10,48 +10,48 @@ namespace py = pybind11;
 
 namespace {
 
-py::array read_only(const app::StateField& field, const std::vector<py::ssize_t>& shape,
+py::array read_only(const app::Quantity& quantity, const std::vector<py::ssize_t>& shape,
                     const void* data, const py::handle& owner) {
-  py::array array(field.flag ? py::dtype::of<bool>() : py::dtype::of<double>(), shape, {}, data,
+  py::array array(quantity.flag ? py::dtype::of<bool>() : py::dtype::of<double>(), shape, {}, data,
                   owner);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 
-std::vector<py::ssize_t> shape_of(const app::StateArrays& state, const app::StateField& field) {
+std::vector<py::ssize_t> shape_of(const app::StateArrays& state, const app::Quantity& quantity) {
   std::vector<py::ssize_t> shape;
-  if (field.rows != app::Rows::one) shape.push_back(state.layout().rows(field.rows));
-  if (field.columns > 1) shape.push_back(field.columns);
+  if (quantity.rows != app::Rows::one) shape.push_back(state.layout().rows(quantity.rows));
+  if (quantity.columns > 1) shape.push_back(quantity.columns);
   return shape;
 }
 
 }  // namespace
 
-py::array worlds_view(app::StateArrays& state, app::Field field, const py::handle& owner) {
-  const app::StateField& one = app::state_fields()[static_cast<std::size_t>(field)];
+py::array worlds_view(app::StateArrays& state, std::size_t quantity, const py::handle& owner) {
+  const app::Quantity& one = simulation::quantities()[quantity];
   std::vector<py::ssize_t> shape = shape_of(state, one);
   shape.insert(shape.begin(), state.worlds());
-  if (one.flag) return read_only(one, shape, state.flags(field), owner);
-  return read_only(one, shape, state.numbers(field), owner);
+  if (one.flag) return read_only(one, shape, state.flags(quantity), owner);
+  return read_only(one, shape, state.numbers(quantity), owner);
 }
 
-py::array world_view(app::StateArrays& state, app::Field field, int world,
+py::array world_view(app::StateArrays& state, std::size_t quantity, int world,
                      const py::handle& owner) {
-  const app::StateField& one = app::state_fields()[static_cast<std::size_t>(field)];
+  const app::Quantity& one = simulation::quantities()[quantity];
   const std::ptrdiff_t first =
       static_cast<std::ptrdiff_t>(world) * state.layout().rows(one.rows) * one.columns;
-  if (one.flag) return read_only(one, shape_of(state, one), state.flags(field) + first, owner);
-  return read_only(one, shape_of(state, one), state.numbers(field) + first, owner);
+  if (one.flag) return read_only(one, shape_of(state, one), state.flags(quantity) + first, owner);
+  return read_only(one, shape_of(state, one), state.numbers(quantity) + first, owner);
 }
 
-std::string words_of(const app::StateField& field, bool worlds) {
+std::string words_of(const app::Quantity& quantity, bool worlds) {
   std::string shape = worlds ? "worlds" : "";
   const auto add = [&](const std::string& axis) { shape += (shape.empty() ? "" : ", ") + axis; };
-  if (field.rows != app::Rows::one) add(std::string(name_of(field.rows)));
-  if (field.columns > 1) add(std::to_string(field.columns));
+  if (quantity.rows != app::Rows::one) add(std::string(name_of(quantity.rows)));
+  if (quantity.columns > 1) add(std::to_string(quantity.columns));
   if (shape.find(',') == std::string::npos) shape += ",";
-  return "(" + shape + "), " + (field.flag ? "bool" : std::string(field.unit)) + ": " +
-         std::string(field.sentence) + ".";
+  return "(" + shape + "), " + (quantity.flag ? "bool" : std::string(quantity.unit)) + ": " +
+         std::string(quantity.sentence) + ".";
 }
 
 std::vector<double> numbers_of(const Numbers& numbers, std::size_t count, const char* what) {

@@ -42,20 +42,20 @@ std::vector<double> joint_numbers(Run& self, const py::object& values) {
 }
 
 void add_run_state(RunClass& run) {
-  const auto fields = app::state_fields();
-  for (std::size_t f = 0; f < fields.size(); ++f) {
-    const std::string name(fields[f].name), words = words_of(fields[f], false);
+  const auto all = simulation::quantities();
+  for (std::size_t q = 0; q < all.size(); ++q) {
+    if (all[q].name.empty()) continue;
+    const std::string name(all[q].name), words = words_of(all[q], false);
     run.def_property_readonly(
         name.c_str(),
-        [f](const py::object& self) {
+        [q](const py::object& self) {
           Run& one = self.cast<Run&>();
-          const auto field = static_cast<app::Field>(f);
-          if (one.state().want(field)) one.alone([&](app::SteeredRun&) { one.fill_all(); });
-          return world_view(one.state(), field, one.world(), self);
+          if (one.state().want(q)) one.alone([&](app::SteeredRun&) { one.fill_all(); });
+          return world_view(one.state(), q, one.world(), self);
         },
         words.c_str());
   }
-  for (int kind = 1; kind < app::row_kinds; ++kind) {
+  for (int kind = 1; kind < simulation::row_kinds; ++kind) {
     const auto rows = static_cast<app::Rows>(kind);
     const std::string one(name_of(rows));
     const std::string name = (rows == app::Rows::body       ? "body"

@@ -14,7 +14,7 @@ class Simulation : public Run {
  public:
   explicit Simulation(const std::shared_ptr<const app::SteeredScene>& scene)
       : run_(std::make_unique<app::SteeredRun>(scene), scene->assets->scene.threads > 1),
-        state_(app::StateLayout(run_->simulation()), 1) {
+        state_(app::RowLayout(run_->simulation()), 1) {
     sensed_.seed = scene->assets->scene.seed;
     fill();
   }

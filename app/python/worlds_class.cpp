@@ -114,22 +114,23 @@ void act(Worlds& self, app::Act::Kind kind, const Numbers& values) {
 }
 
 void add_state(py::class_<Worlds>& worlds) {
-  const auto fields = app::state_fields();
-  for (std::size_t f = 0; f < fields.size(); ++f)
+  const auto all = simulation::quantities();
+  for (std::size_t q = 0; q < all.size(); ++q) {
+    if (all[q].name.empty()) continue;
     worlds.def_property_readonly(
-        std::string(fields[f].name).c_str(),
-        [f](const py::object& self) {
+        std::string(all[q].name).c_str(),
+        [q](const py::object& self) {
           Worlds& one = self.cast<Worlds&>();
-          const auto field = static_cast<app::Field>(f);
-          if (one.all.state().want(field)) {
+          if (one.all.state().want(q)) {
             one.built.check("a Worlds");
             const py::gil_scoped_release release;
             const std::lock_guard lock(one.mutex);
             one.all.fill();
           }
-          return worlds_view(one.all.state(), field, self);
+          return worlds_view(one.all.state(), q, self);
         },
-        words_of(fields[f], true).c_str());
+        words_of(all[q], true).c_str());
+  }
 }
 
 void add_targets(py::class_<Worlds>& worlds) {

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "app/steer/state_layout.h"
+#include "plugins/simulation/plants/organ_places.h"
+#include "plugins/simulation/simulation.h"
 #include "engine/world/sim_world.h"
 
 namespace pedicel::app {

@@ -78,9 +78,9 @@ void SteeredRun::reset(const SteeredScene::Settings& settings) {
   scene_ = made_;
   if (settings.empty()) return begin();
   scene_ = made_->with(settings);
-  const StateLayout before(*simulation_);
+  const RowLayout before(*simulation_);
   begin();
-  if (StateLayout(*simulation_) == before) return;
+  if (RowLayout(*simulation_) == before) return;
   scene_ = made_;
   begin();
   throw UsageError(

@@ -58,7 +58,7 @@ class SteeredRun {
   std::string failure() const;
 
   /// To time 0 of the scene that it was made with, or of that scene with more settings. Throws
-  /// UsageError where they are impossible or make other rows (StateLayout), and then it is at time
+  /// UsageError where they are impossible or make other rows (RowLayout), and then it is at time
   /// 0 of the scene that it was made with.
   void reset(const SteeredScene::Settings& settings = {});
 

@@ -37,7 +37,7 @@ bool is_marked(std::span<const std::uint8_t> mask, int world) {
 
 SteeredWorlds::SteeredWorlds(std::shared_ptr<const SteeredScene> scene, int worlds, int threads)
     : runs_(make(with_one_thread(std::move(scene)), worlds)),
-      state_(StateLayout(runs_.front()->simulation()), worlds),
+      state_(RowLayout(runs_.front()->simulation()), worlds),
       pool_(cores(threads)) {}
 
 void SteeredWorlds::fill() {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "app/steer/state_layout.h"
+#include "plugins/simulation/plants/organ_places.h"
 #include "engine/core/check.h"
 #include "engine/geometry/closest_point.h"
 #include "plugins/simulation/place.h"

@@ -9,6 +9,7 @@
 #include "app/topics/plant_topics.h"
 #include "app/topics/robot_topics.h"
 #include "app/topics/wrench_topic.h"
+#include "plugins/simulation/instrument.h"
 
 namespace pedicel::app {
 

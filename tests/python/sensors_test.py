@@ -78,6 +78,17 @@ class SensorsTest(Case):
         wrist = rows_of(os.path.join(out, "wrench_wrist.csv"))
         self.assertNotEqual(wrist[-1]["fx"], tip[-1]["fx"])
 
+    def test_imus_feel_what_carries_them(self):
+        with open(PULL_UP, encoding="utf-8") as file:
+            text = file.read().replace("../../", os.path.join(os.path.dirname(PULL_UP), "../../")).replace(
+                "../robots", os.path.join(os.path.dirname(PULL_UP), "../robots"))
+        sim = pedicel.Simulation(self.write("shaken.scene.yaml", text + "\nimus:\n  - {name: stem, organ: truss/stem}\n"))
+        sim.step(20)
+        self.assertEqual(sim.imus["stem"].shape, (6,))
+        self.assertAlmostEqual(np.linalg.norm(sim.imus["stem"][:3]), 9.81, places=2)
+        self.assertEqual(sim.quantities["imu_stem_wx_rad/s"], sim.imus["stem"][3])
+        self.assertEqual(sim.wrenches, {})
+
     def test_gentleness_is_in_every_result(self):
         result, out = self.run_off_screen(PULL_UP, "--duration", "3.6", "--no-pictures", "--no-sweep", good=(0, 5))
         handled = result["gentleness"]

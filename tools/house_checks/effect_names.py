@@ -7,7 +7,7 @@ from .source import NOT_CODE
 EFFECTS = "plugins/discrepancy/scene/effects"
 SYMPTOMS = "plugins/discrepancy/scene_procedure"
 # Names that are something else there: a column of the state, and a number of the robot.
-OTHERS = {("app/steer/state_fields.cpp", "tool_pose"), ("engine/robot/robot.cpp", "contact_friction")}
+OTHERS = {("plugins/simulation/quantities.cpp", "tool_pose"), ("engine/robot/robot.cpp", "contact_friction")}
 SPEAKS_FOR = re.compile(r"speaks_for = \{.*?\};", re.S)
 SIGN = re.compile(r'\{"(\w+)", \d')
 

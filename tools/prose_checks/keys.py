@@ -26,8 +26,8 @@ TEXTS = re.compile(r"texts\(map, \"(\w+)\"")
 JSON = re.compile(r"(?:\{|json\[)\"([a-z_0-9]+)\"[,\]]")
 QUANTITY = re.compile(r"^\s+\{\"(\w+)\", \"", re.M)
 SCRIPT_QUANTITY = re.compile(r"if \(name == \"(\w+)\"\)")
-CHANNEL = re.compile(r"(?:emplace_back\(|push_back\(\s*\{)\"(\w+)\",")
-FRUIT_CHANNEL = re.compile(r"(?:emplace_back\(|push_back\(\s*\{)name \+ \"(_\w+)\",")
+CHANNEL = re.compile(r"(?<=[\" ])((?:tool_[xyz]|energy|stretch|contacts|detached)_\w+)(?=[ \"])")
+FRUIT_CHANNEL = re.compile(r"(?<=[\" ])\*(_\w+)(?=[ \"])")
 TABLE_COLUMN = re.compile(r"Name\{\"(\w+)\", ColumnRole::")
 COLUMN = re.compile(r"\"((?:time|stretch|bend|force|moment|torsion|angle|tool)_\w+|organ|cause)\"")
 
@@ -82,8 +82,8 @@ RULES = [
     Rule("quantities.md", ("engine/world/expectation.cpp",), (QUANTITY,), 18),
     Rule("quantities.md", ("app/session/commands/session_commands.cpp",), (SCRIPT_QUANTITY,), 7),
     Rule("quantities.md", ("engine/world/recorder.cpp",), (COLUMN,), 16, end=""),
-    Rule("quantities.md", ("plugins/simulation/channels.cpp",), (CHANNEL,), 6, end=""),
-    Rule("quantities.md", ("plugins/simulation/channels.cpp",), (FRUIT_CHANNEL,), 5, prefix="PLANT/FRUIT", end=""),
+    Rule("quantities.md", ("plugins/simulation/quantities.cpp",), (CHANNEL,), 9, end=""),
+    Rule("quantities.md", ("plugins/simulation/quantities.cpp",), (FRUIT_CHANNEL,), 7, prefix="PLANT/FRUIT", end=""),
     Rule("quantities.md", ("app/report/meta.cpp",), (JSON,), 25, end="", leave_out=("value", "unit")),
 ]
 

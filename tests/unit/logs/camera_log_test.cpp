@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -17,7 +18,8 @@ namespace {
 constexpr const char* camera =
     "cameras:\n  - {name: side view, eye: [0.4, -0.7, 0.3], target: [0.4, 0, 0.3], fov: 0.8, "
     "size: [256, 192], rate: 20, sensors: [rgb, depth, points, instances]}\n"
-    "wrenches:\n  - {name: pad, link: finger, rate: 50}\n";
+    "wrenches:\n  - {name: pad, link: finger, rate: 50}\n"
+    "imus:\n  - {name: pad, link: finger, rate: 50}\n";
 
 class CameraLog : public ::testing::Test {
  protected:
@@ -93,6 +95,19 @@ TEST_F(CameraLog, DepthsAndPointsLieOnThings) {
     }
   }
   EXPECT_GT(on_stem, 5);
+}
+
+TEST_F(CameraLog, HasTheScenesImusWithTheirFrames) {
+  const auto pad = all<ros::Imu>("/pad/imu");
+  ASSERT_GE(pad.size(), 10U);
+  EXPECT_EQ(pad.back().header.frame_id, "pad/imu");
+  EXPECT_NEAR(pad.back().linear_acceleration.z, 9.81, 1e-3);
+  const auto frames = all<ros::TFMessage>("/tf");
+  EXPECT_TRUE(std::ranges::any_of(frames, [](const ros::TFMessage& message) {
+    return std::ranges::any_of(message.transforms, [](const ros::TransformStamped& one) {
+      return one.child_frame_id == "pad/imu" && one.header.frame_id == "world";
+    });
+  }));
 }
 
 TEST_F(CameraLog, HasTheScenesForceSensorsToo) {

@@ -71,18 +71,23 @@ TEST(SteeredRun, ARefusedActIsNotKept) {
   EXPECT_TRUE(run.save().acts.empty());
 }
 
+std::size_t quantity(std::string_view name) {
+  const auto all = simulation::quantities();
+  return static_cast<std::size_t>(std::ranges::find(all, name, &Quantity::name) - all.begin());
+}
+
 TEST(SteeredRun, OnlyWhatWasAskedForIsWritten) {
   SteeredRun run(scene_of_twig());
-  StateArrays state(StateLayout(run.simulation()), 1);
-  EXPECT_TRUE(state.want(Field::positions));
-  EXPECT_FALSE(state.want(Field::positions));
+  StateArrays state(RowLayout(run.simulation()), 1);
+  EXPECT_TRUE(state.want(quantity("positions")));
+  EXPECT_FALSE(state.want(quantity("positions")));
   state.fill(run.simulation(), 0);
   const int last = state.layout().rows(Rows::segment) - 1;
-  EXPECT_GT(state.numbers(Field::positions)[3 * last + 2], 0.29);
-  EXPECT_EQ(state.numbers(Field::orientations)[3], 0.0);
-  state.want(Field::orientations);
+  EXPECT_GT(state.numbers(quantity("positions"))[3 * last + 2], 0.29);
+  EXPECT_EQ(state.numbers(quantity("orientations"))[3], 0.0);
+  state.want(quantity("orientations"));
   state.fill(run.simulation(), 0);
-  EXPECT_NE(state.numbers(Field::orientations)[3], 0.0);
+  EXPECT_NE(state.numbers(quantity("orientations"))[3], 0.0);
 }
 
 TEST(SteeredWorlds, AreSingleRuns) {
