@@ -86,7 +86,7 @@ class SensorsTest(Case):
         sim.step(20)
         self.assertEqual(sim.imus["stem"].shape, (6,))
         self.assertAlmostEqual(np.linalg.norm(sim.imus["stem"][:3]), 9.81, places=2)
-        self.assertEqual(sim.quantities["imu_stem_wx_rad/s"], sim.imus["stem"][3])
+        self.assertEqual(sim.quantities()["imu_stem_wx_rad/s"], sim.imus["stem"][3])
         self.assertEqual(sim.wrenches, {})
 
     def test_gentleness_is_in_every_result(self):
