@@ -36,6 +36,8 @@ struct SceneAssets {
   std::optional<robot::RobotDescription> believed;
   /// What was recorded leads the robot, and not its program; none: the program.
   JointReadings readings;
+  /// Fruits that come off feel a robot that readings lead, too. It takes Bullet's time.
+  bool loose_fruits = false;
   std::vector<Grasp> grasps;  ///< organs that links take hold of, likewise
   std::vector<std::string> notes;  ///< what a user should know and that stops nothing
 

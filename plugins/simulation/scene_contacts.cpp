@@ -4,6 +4,7 @@
 
 #include "plugins/cosserat/contact/plant_blades.h"
 #include "plugins/cosserat/contact/self_contact.h"
+#include "plugins/simulation/body_contacts.h"
 #include "plugins/simulation/colliders.h"
 #include "plugins/simulation/plants/start_overlaps.h"
 #include "plugins/simulation/scene_assets.h"
@@ -62,6 +63,12 @@ void SceneContacts::sum_up(const coupling::ContactReport& contacts) {
       link_forces_.push_back({collider.link, sum.force_W, sum.place_W, sum.moment_W});
   }
   if (held_) held_->add_forces(world_, link_forces_);
+  // Of a robot that moves by itself Bullet knows these; one that is led only hears of them here.
+  if (robot_->led_by_readings())
+    each_body_contact(world_, robot_->robot(),
+                      [this](int link, const Vec3& force_W, const Vec3& place_W) {
+                        link_forces_.push_back({link, force_W, place_W, Vec3::Zero()});
+                      });
   effort_ = robot_->robot().effort_of(link_forces_);
 }
 

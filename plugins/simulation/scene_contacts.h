@@ -41,7 +41,7 @@ class SceneContacts {
 
   /// What plants exerted on links of the robot in the step that has ended, by contact and by what
   /// is held, and what that is at its joints (N m or N). Where joints give way or recorded ones
-  /// lead; else empty.
+  /// lead; else empty. Where recorded ones lead, with what rigid bodies exerted.
   const std::vector<robot::LinkReaction>& link_forces() const { return link_forces_; }
   const Eigen::VectorXd& effort() const { return effort_; }
 

@@ -86,4 +86,35 @@ Eigen::Matrix<double, 6, 1> Arm::own_wrench(int link, const JointPath::Point& mo
   return wrench;
 }
 
+Eigen::Matrix<double, 6, 1> Arm::own_wrench(int link, const JointPath::Point& begin,
+                                            const JointPath::Point& end, double dt,
+                                            const Vec3& gravity) const {
+  std::vector<Pose> poses, before;
+  std::vector<robot::Twist> twists, twists_before;
+  model_.link_poses(begin.q, before);
+  model_.link_velocities(before, begin.qd, twists_before);
+  model_.link_poses(end.q, poses);
+  model_.link_velocities(poses, end.qd, twists);
+  const Pose& own = poses[static_cast<std::size_t>(link)];
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  for (const int beyond : this->beyond(link)) {
+    const auto b = static_cast<std::size_t>(beyond);
+    const robot::Inertial& body = description_.links[b].inertial;
+    // Of the centre's velocity, and of what turns about it.
+    const auto momentum = [&](const Pose& pose, const robot::Twist& twist) {
+      const Mat3 r = pose.rotation.toRotationMatrix();
+      return std::pair<Vec3, Vec3>(
+          body.mass * (twist.linear + twist.angular.cross(r * body.com_L)),
+          r * body.inertia * r.transpose() * twist.angular);
+    };
+    const auto now = momentum(poses[b], twists[b]), then = momentum(before[b], twists_before[b]);
+    const Vec3 f = body.mass * gravity - (now.first - then.first) / dt;
+    force += f;
+    moment += (poses[b] * body.com_L - own.position).cross(f) - (now.second - then.second) / dt;
+  }
+  Eigen::Matrix<double, 6, 1> wrench;
+  wrench << own.rotation.conjugate() * force, own.rotation.conjugate() * moment;
+  return wrench;
+}
+
 }  // namespace pedicel::discrepancy

@@ -28,6 +28,11 @@ class Arm {
   /// beyond it, as they pull at what carries it, at poses of the model at q.
   Eigen::Matrix<double, 6, 1> own_wrench(int link, const JointPath::Point& motion,
                                          const Vec3& gravity) const;
+  /// The same as the mean of a step of `dt` (s) in which momentum changes from one motion to the
+  /// other, in the frame at its end: as a run makes it.
+  Eigen::Matrix<double, 6, 1> own_wrench(int link, const JointPath::Point& begin,
+                                         const JointPath::Point& end, double dt,
+                                         const Vec3& gravity) const;
 
  private:
   robot::RobotDescription description_;

@@ -121,10 +121,21 @@ class Observer {
         out.row(s).setConstant(unseen);
         continue;
       }
+      const long column = 6 * static_cast<long>(index);
+      if (const double dt = member_.run_step; dt > 0.0) {
+        // What a run says in the middle of a step is the step's.
+        const double end = t + 0.5 * dt;
+        out.row(s) = member_.arm
+                         ->own_wrench(sensor.link, joints(end - dt, 0.0), joints(end, 0.0), dt,
+                                      experiment_.scene.gravity)
+                         .transpose() +
+                     mean_over(motion_.time, motion_.contact, column, 6, end, end);
+        continue;
+      }
       const JointPath::Point q = joints(t, half);
-      out.row(s) = member_.arm->own_wrench(sensor.link, q, experiment_.scene.gravity).transpose() +
-                   mean_over(motion_.time, motion_.contact, 6 * static_cast<long>(index), 6,
-                             t - half, t + half);
+      out.row(s) =
+          member_.arm->own_wrench(sensor.link, q, experiment_.scene.gravity).transpose() +
+          mean_over(motion_.time, motion_.contact, column, 6, t - half, t + half);
     }
     out *= gauge.gain;
     out.leftCols<3>().rowwise() += gauge.force.transpose();

@@ -150,6 +150,7 @@ struct SceneSimulator::Impl {
                      std::min(request.until, trial.duration()), all) +
               key_of(request.variant->forces) + (request.variant->plants_away ? "|away" : "");
     out.member.forces = request.variant->forces;
+    if (numerics.as_run) out.member.run_step = numerics.dt;
     out.path = &path(request.trial, request.variant->draw);
     return out;
   }

@@ -76,6 +76,7 @@ class Parts {
       q = point.q;
       qd = point.qd;
     };
+    assets_->loose_fruits = numerics.as_run;
     add_grasps();
     for (std::size_t p = 0; p < makers.size(); ++p) add_plant(p);
   }
@@ -339,6 +340,12 @@ JointPath::Point arm_at(const SceneMember& member, double t) {
   if (member.is_run) return path.at(t);
   // A row at t holds what was at t - delay.
   JointPath::Point point = path.at(t + state.robot_delay);
+  if (const double dt = member.run_step; dt > 0.0) {
+    // Bullet moves a joint by its velocity at the step's end. A run begins at rest.
+    const bool begins = t < 0.5 * dt;
+    if (begins) point.qd.setZero();
+    if (!begins) point.qd = (point.q - path.at(t + state.robot_delay - dt).q) / dt;
+  }
   point.q += state.joint_offset;
   return point;
 }

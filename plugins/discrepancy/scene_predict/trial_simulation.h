@@ -60,6 +60,8 @@ struct SceneMember {
   const Arm* arm = nullptr;
   const JointPath* path = nullptr;  ///< of the arm's readings, in the order of its model
   bool is_run = false;  ///< the path is that of the links themselves (commands), not of readings
+  /// s, of a step of the run that was logged: velocities are those of its steps; 0: measured.
+  double run_step = 0.0;
   std::vector<plant::Effect> effects;  ///< of the plants' models
   std::span<const SceneForce> forces;
 };

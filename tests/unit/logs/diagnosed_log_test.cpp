@@ -18,7 +18,7 @@ class DiagnosedLog : public ::testing::Test {
   /// beside the finger.
   discrepancy::SceneDiagnosis diagnose(const std::function<void(ArmAtStem&)>& hide = {}) {
     ArmAtStem believed;
-    believed.coupling = "{friction: 0.5, contact_stiffness: 1.0e5}";
+    believed.coupling = "{friction: 0.5, contact_stiffness: 1.0e5, margin: 1.0e-5}";
     believed.write_all();
     ImportArguments a;
     int number = 0;
@@ -26,7 +26,6 @@ class DiagnosedLog : public ::testing::Test {
       const LoggedRun run("0.03", 1.2, [&](ArmAtStem& files) {
         files.swing = swing;
         if (hide) hide(files);
-        // Measured things touch when they touch.
         files.coupling = "{friction: 0.5, contact_stiffness: 1.0e5, margin: 1.0e-5}";
       });
       const auto log = believed.path() / ("push_" + std::to_string(++number) + ".mcap");
@@ -59,7 +58,6 @@ TEST_F(DiagnosedLog, NamesWhatTheRunHad) {
   ASSERT_EQ(found.verdict.causes.size(), 1U) << found.text;
   const discrepancy::NamedCause& cause = found.verdict.causes.front();
   EXPECT_EQ(cause.name, "youngs_modulus") << found.text;
-  // The run's mesh is that of its file, 50 mm, and the diagnosis takes a finer one.
   EXPECT_NEAR(cause.parameters.at("factor").front().value, 1.2, 0.05);
 }
 
