@@ -89,7 +89,8 @@ void GripperStep::end(double dt) {
     load += end.load;
     if (std::abs(end.position - now_.aim) > std::abs(position - now_.aim)) position = end.position;
   }
-  was_stopped_ = position != now_.aim;
+  // One that readings lead is told where it was stopped, and not where it was told to go.
+  was_stopped_ = position != now_.aim || (robot_.led_by_readings() && load != 0.0);
   if (was_stopped_ || position != now_.reference)
     robot.place_joint(joint, position, (position - now_.start) / dt);
   if (load != 0.0) robot.add_motor_load(joint, load);

@@ -18,7 +18,6 @@ namespace {
 constexpr double far_below = 100.0;    // m: there no arm reaches, and a plant moves as anywhere
 constexpr std::size_t widest = 8;      // plants side by side: the solver's lanes
 constexpr std::size_t most_kept = 64;  // motions, some 2 MB each
-constexpr double exactly = 1.0e-10;    // rad or m, of readings that have no noise
 
 using Makers = std::vector<std::unique_ptr<PlantMaker>>;
 
@@ -91,6 +90,21 @@ struct Prepared {
   JointPath run;                    // of an arm that follows commands
 };
 
+// A run's log says where its joints were, without noise, also where they stop at once.
+JointPath through(const Samples& joints) {
+  std::vector<Eigen::VectorXd> places, speeds;
+  const int rows = joints.size();
+  for (int r = 0; r < rows; ++r) {
+    const int before = std::max(0, r - 1), after = std::min(rows - 1, r + 1);
+    const double time = joints.time[static_cast<std::size_t>(after)] -
+                        joints.time[static_cast<std::size_t>(before)];
+    places.emplace_back(joints.value.row(r).transpose());
+    speeds.emplace_back((joints.value.row(after) - joints.value.row(before)).transpose() /
+                        std::max(time, 1.0e-9));
+  }
+  return JointPath::through(joints.time, places, speeds);
+}
+
 }  // namespace
 
 JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, int draw) {
@@ -99,9 +113,9 @@ JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, in
   for (const auto& [joint, value] : experiment.scene.robot->joints)
     if (const int dof = model.joint_index(joint); dof >= 0) start[dof] = value;
   if (trial.follows_commands) return {};
-  const double stated = experiment.noise.joint_std.value_or(0.0);
-  // A run's log says where its joints were.
-  const double deviation = experiment.is_run && draw == 0 ? exactly : stated;
+  const double deviation = experiment.noise.joint_std.value_or(0.0);
+  if (experiment.is_run && draw == 0)
+    return through(trial.joints).spread(trial.joint_columns, start);
   if (draw == 0) return smooth_readings(trial.joints, deviation).spread(trial.joint_columns, start);
   Samples other = trial.joints;
   const Eigen::VectorXd scatter = smooth_readings(trial.joints, deviation).scatter();
