@@ -5,10 +5,10 @@
 #include <numbers>
 #include <vector>
 
-#include "plugins/simulation/plants/organ_places.h"
 #include "engine/core/check.h"
 #include "engine/geometry/closest_point.h"
 #include "plugins/simulation/place.h"
+#include "plugins/simulation/plants/organ_places.h"
 
 namespace pedicel::app {
 

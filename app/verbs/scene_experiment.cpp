@@ -13,11 +13,11 @@
 #include "engine/io/yaml.h"
 #include "plugins/discrepancy/report/scene_diagnosis_files.h"
 #include "plugins/discrepancy/report/scene_report.h"
+#include "plugins/discrepancy/scene/scene_effects.h"
 #include "plugins/discrepancy/scene_files/more_scene_trials.h"
 #include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
-#include "plugins/discrepancy/scene/scene_effects.h"
 #include "plugins/discrepancy/scene_predict/scene_observe.h"
 #include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 

@@ -147,8 +147,8 @@ void HeldOrgans::add_forces(const world::SimWorld& world,
     force.point_W = position_of(state, held.place);
     force.force_W = hold_stiffness * (force.point_W - support.position);
     const Quat& own = state.orientation[held.place.element];
-    force.moment_W = own * held.turning.cwiseProduct(
-                               cosserat::log_map(support.rotation.conjugate() * own));
+    force.moment_W =
+        own * held.turning.cwiseProduct(cosserat::log_map(support.rotation.conjugate() * own));
   }
 }
 

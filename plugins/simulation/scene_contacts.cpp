@@ -96,8 +96,8 @@ void SceneContacts::add_sources(const SceneAssets& assets, int p, Diagnostics& d
   const std::vector<bool> leaning = lean_on_robot(assets, p);
   coupling::ColliderSource& source = add_source(assets, p);
   // A plant drawn through a link would be shot out in the first step.
-  const std::vector<coupling::Overlap> overlaps = source.ignore_touching(
-      rods_.model(p), rods_.state(p), [&](int shape, int collider) {
+  const std::vector<coupling::Overlap> overlaps =
+      source.ignore_touching(rods_.model(p), rods_.state(p), [&](int shape, int collider) {
         return leaning.empty() || !leaning[static_cast<std::size_t>(shape)] ||
                colliders_.collider(collider).body != robot_body;
       });

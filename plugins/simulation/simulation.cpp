@@ -181,9 +181,8 @@ void Simulation::add_robot(Diagnostics& diagnostics) {
   }
   led.readings = assets_->readings;
   // Where nothing loose could feel it, Bullet need not know of a robot that is placed anyway.
-  led.moves = !led.readings || assets_->loose_fruits || std::ranges::any_of(scene_.bodies, [](const auto& body) {
-    return body.mass > 0.0;
-  });
+  led.moves = !led.readings || assets_->loose_fruits ||
+              std::ranges::any_of(scene_.bodies, [](const auto& body) { return body.mass > 0.0; });
   robot_ = make_robot_control(*scene_.robot, *assets_->robot, world_, find_place, led, diagnostics);
   if (!robot_) return;
   const bool gives = assets_->effects && assets_->effects->state.joint_stiffness > 0.0;

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 #include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+#include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 #include "tests/support/places.h"
 
 namespace pedicel::discrepancy {

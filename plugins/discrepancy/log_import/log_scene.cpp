@@ -41,8 +41,8 @@ void read_plants(LogScene& out, Diagnostics& diagnostics) {
     add_file(out.files, plant.source);
     // What is shipped with the program is found without being carried along.
     for (const plant::PlantLeaf& leaf : plant.file.leaves)
-      if (const auto found = plant::find_leaf_template(
-              leaf.leaf_template, {fs::absolute(plant.source).parent_path()}))
+      if (const auto found = plant::find_leaf_template(leaf.leaf_template,
+                                                       {fs::absolute(plant.source).parent_path()}))
         add_file(out.files, *found);
     out.plants.push_back(std::move(plant.file));
   }

@@ -103,9 +103,8 @@ Eigen::Matrix<double, 6, 1> Arm::own_wrench(int link, const JointPath::Point& be
     // Of the centre's velocity, and of what turns about it.
     const auto momentum = [&](const Pose& pose, const robot::Twist& twist) {
       const Mat3 r = pose.rotation.toRotationMatrix();
-      return std::pair<Vec3, Vec3>(
-          body.mass * (twist.linear + twist.angular.cross(r * body.com_L)),
-          r * body.inertia * r.transpose() * twist.angular);
+      return std::pair<Vec3, Vec3>(body.mass * (twist.linear + twist.angular.cross(r * body.com_L)),
+                                   r * body.inertia * r.transpose() * twist.angular);
     };
     const auto now = momentum(poses[b], twists[b]), then = momentum(before[b], twists_before[b]);
     const Vec3 f = body.mass * gravity - (now.first - then.first) / dt;

@@ -70,8 +70,9 @@ const io::KeyList& experiment_list() {
         .type = KeyType::word,
         .otherwise = Told{"measured"},
         .words = {"measured", "run"},
-        .sentence = "`run`: a log of a run of the scene by this program, whose step, mesh and contact "
-                    "are the run's"},
+        .sentence =
+            "`run`: a log of a run of the scene by this program, whose step, mesh and contact "
+            "are the run's"},
        {.name = "markers",
         .type = KeyType::list,
         .otherwise = none,

@@ -83,7 +83,8 @@ ArmWay measured_way(const SceneExperiment& experiment, const SceneTrial& trial) 
 
 WayCheck::WayCheck(const SceneExperiment& experiment, const SceneTrial& trial,
                    const ArmWay& measured)
-    : arm_(experiment, nominal_state(experiment)), fields_(simulation::exact_fields_of(arm_.description())) {
+    : arm_(experiment, nominal_state(experiment)),
+      fields_(simulation::exact_fields_of(arm_.description())) {
   add_plants(experiment, trial);
   const robot::KinematicModel& model = arm_.model();
   lower_ = model.lower();

@@ -24,20 +24,18 @@ robot::Trajectory commands_of(const SceneTrial& trial, const Arm& arm) {
   return {trial.commands.time, rows};
 }
 
+}  // namespace
+
 // By differences of the positions. A step's own velocity is that of its middle: taken at its end,
 // the spline between two steps would swing by three times the acceleration.
-std::vector<Eigen::VectorXd> velocities_of(const std::vector<Eigen::VectorXd>& positions,
-                                           double dt) {
-  std::vector<Eigen::VectorXd> all = {Eigen::VectorXd::Zero(positions.front().size())};
+JointPath path_through(std::vector<double> time, const std::vector<Eigen::VectorXd>& positions) {
+  std::vector<Eigen::VectorXd> speeds = {Eigen::VectorXd::Zero(positions.front().size())};
   for (std::size_t k = 1; k < positions.size(); ++k) {
     const std::size_t next = std::min(k + 1, positions.size() - 1);
-    all.emplace_back((positions[next] - positions[k - 1]) /
-                     (dt * static_cast<double>(next - k + 1)));
+    speeds.emplace_back((positions[next] - positions[k - 1]) / (time[next] - time[k - 1]));
   }
-  return all;
+  return JointPath::through(std::move(time), positions, speeds);
 }
-
-}  // namespace
 
 JointPath run_arm(const SceneExperiment& experiment, const SceneTrial& trial,
                   const SceneState& state, const Arm& arm, double dt, double until) {
@@ -76,7 +74,7 @@ JointPath run_arm(const SceneExperiment& experiment, const SceneTrial& trial,
     time.push_back(k * dt);
     positions.push_back(robot.positions());
   }
-  return JointPath::through(std::move(time), positions, velocities_of(positions, dt));
+  return path_through(std::move(time), positions);
 }
 
 }  // namespace pedicel::discrepancy

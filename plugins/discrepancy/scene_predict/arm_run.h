@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "plugins/discrepancy/scene/arm.h"
 
 namespace pedicel::discrepancy {
@@ -9,5 +11,9 @@ namespace pedicel::discrepancy {
 /// (s), up to `until` (s).
 JointPath run_arm(const SceneExperiment& experiment, const SceneTrial& trial,
                   const SceneState& state, const Arm& arm, double dt, double until);
+
+/// The path through positions that have no noise, one row a time (s): from rest, with differences
+/// as velocities.
+JointPath path_through(std::vector<double> time, const std::vector<Eigen::VectorXd>& positions);
 
 }  // namespace pedicel::discrepancy

@@ -133,9 +133,8 @@ class Observer {
         continue;
       }
       const JointPath::Point q = joints(t, half);
-      out.row(s) =
-          member_.arm->own_wrench(sensor.link, q, experiment_.scene.gravity).transpose() +
-          mean_over(motion_.time, motion_.contact, column, 6, t - half, t + half);
+      out.row(s) = member_.arm->own_wrench(sensor.link, q, experiment_.scene.gravity).transpose() +
+                   mean_over(motion_.time, motion_.contact, column, 6, t - half, t + half);
     }
     out *= gauge.gain;
     out.leftCols<3>().rowwise() += gauge.force.transpose();

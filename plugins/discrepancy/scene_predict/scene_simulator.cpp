@@ -90,21 +90,6 @@ struct Prepared {
   JointPath run;                    // of an arm that follows commands
 };
 
-// A run's log says where its joints were, without noise, also where they stop at once.
-JointPath through(const Samples& joints) {
-  std::vector<Eigen::VectorXd> places, speeds;
-  const int rows = joints.size();
-  for (int r = 0; r < rows; ++r) {
-    const int before = std::max(0, r - 1), after = std::min(rows - 1, r + 1);
-    const double time = joints.time[static_cast<std::size_t>(after)] -
-                        joints.time[static_cast<std::size_t>(before)];
-    places.emplace_back(joints.value.row(r).transpose());
-    speeds.emplace_back((joints.value.row(after) - joints.value.row(before)).transpose() /
-                        std::max(time, 1.0e-9));
-  }
-  return JointPath::through(joints.time, places, speeds);
-}
-
 }  // namespace
 
 JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, int draw) {
@@ -114,8 +99,12 @@ JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, in
     if (const int dof = model.joint_index(joint); dof >= 0) start[dof] = value;
   if (trial.follows_commands) return {};
   const double deviation = experiment.noise.joint_std.value_or(0.0);
-  if (experiment.is_run && draw == 0)
-    return through(trial.joints).spread(trial.joint_columns, start);
+  if (experiment.is_run && draw == 0 && trial.joints.value.allFinite()) {
+    // A run's log says where its joints were, without noise, also where they stop at once.
+    std::vector<Eigen::VectorXd> rows;
+    for (int r = 0; r < trial.joints.size(); ++r) rows.emplace_back(trial.joints.value.row(r));
+    return path_through(trial.joints.time, rows).spread(trial.joint_columns, start);
+  }
   if (draw == 0) return smooth_readings(trial.joints, deviation).spread(trial.joint_columns, start);
   Samples other = trial.joints;
   const Eigen::VectorXd scatter = smooth_readings(trial.joints, deviation).scatter();

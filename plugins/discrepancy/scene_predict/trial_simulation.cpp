@@ -189,11 +189,10 @@ class MemberRun {
   void push(double t) {
     for (std::size_t f = 0; f < member_.forces.size(); ++f) {
       const SceneForce& force = member_.forces[f];
-      const bool acts =
-          t >= force.from && t <= force.until &&
-          simulation_->rods().state(force.plant).alive[simulation_->rods()
-                                                           .loads(force.plant)[slots_[f]]
-                                                           .element];
+      const bool acts = t >= force.from && t <= force.until &&
+                        simulation_->rods()
+                            .state(force.plant)
+                            .alive[simulation_->rods().loads(force.plant)[slots_[f]].element];
       const double share =
           force.rise > 0.0 ? std::clamp((t - force.from) / force.rise, 0.0, 1.0) : 1.0;
       simulation_->rods().loads(force.plant)[slots_[f]].force_W =
@@ -227,9 +226,8 @@ class MemberRun {
       if (marker.fruit < 0) {
         place = makers[static_cast<std::size_t>(marker.plant)]->locate(marker.place);
       } else {
-        const cosserat::Fruit& fruit = simulation_->rods()
-                                           .model(marker.plant)
-                                           .fruits[static_cast<std::size_t>(marker.fruit)];
+        const cosserat::Fruit& fruit =
+            simulation_->rods().model(marker.plant).fruits[static_cast<std::size_t>(marker.fruit)];
         place = {fruit.element, fruit.back};
       }
     }
@@ -313,8 +311,7 @@ class Stepper {
   Stepper(const std::vector<std::unique_ptr<MemberRun>>& runs, const cosserat::RodSettings& rods,
           const SceneExperiment& experiment, bool touching)
       : runs_(runs) {
-    if (touching || !experiment.scene.ties.empty() ||
-        rods.solver != cosserat::SolverKind::direct)
+    if (touching || !experiment.scene.ties.empty() || rods.solver != cosserat::SolverKind::direct)
       return;
     std::vector<cosserat::RodSystem*> systems;
     for (const auto& run : runs) systems.push_back(&run->simulation().rods());

@@ -38,8 +38,8 @@ std::vector<bool> leaning_stems(const cosserat::RodModel& model,
                                 const std::function<bool(int)>& is_of_body,
                                 const std::function<bool(int)>& is_finger) {
   const auto organ = [&](int shape) {
-    return model.elements[static_cast<std::size_t>(model.shapes[static_cast<std::size_t>(shape)]
-                                                       .element)]
+    return model
+        .elements[static_cast<std::size_t>(model.shapes[static_cast<std::size_t>(shape)].element)]
         .organ;
   };
   const auto is_fruit = [&](int shape) {

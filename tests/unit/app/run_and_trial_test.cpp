@@ -18,10 +18,10 @@ constexpr int steps = 1100;
 
 /// What a run did, step by step.
 struct Recorded {
-  Eigen::VectorXd joint;          // rad
-  Eigen::MatrixXd tip;            // m, W
-  std::vector<double> touching;   // N, of the stem on the finger
-  std::vector<double> detached;   // s
+  Eigen::VectorXd joint;         // rad
+  Eigen::MatrixXd tip;           // m, W
+  std::vector<double> touching;  // N, of the stem on the finger
+  std::vector<double> detached;  // s
 };
 
 class RunAndTrial : public testing::Test {
@@ -126,7 +126,8 @@ TEST_F(RunAndTrial, AgreeWhereAStringHoldsTheStem) {
 }
 
 TEST_F(RunAndTrial, AgreeInWind) {
-  at_.scene_more = "wind: {velocity: [2, 0, 0], height: 2, roughness: 0.05, intensity: 0.3, length: 1}\n";
+  at_.scene_more =
+      "wind: {velocity: [2, 0, 0], height: 2, roughness: 0.05, intensity: 0.3, length: 1}\n";
   expect_the_same(1.0e-7);
 }
 

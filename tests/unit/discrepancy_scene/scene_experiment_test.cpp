@@ -4,10 +4,10 @@
 
 #include "engine/core/check.h"
 #include "engine/io/text_file.h"
+#include "plugins/discrepancy/scene_files/scene_experiment_keys.h"
 #include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_keys.h"
 #include "plugins/discrepancy/scene_predict/scene_observe.h"
 #include "tests/support/described_keys.h"
 #include "tests/unit/discrepancy_scene/arm_at_stem.h"
