@@ -102,6 +102,7 @@ JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, in
   if (experiment.is_run && draw == 0 && trial.joints.value.allFinite()) {
     // A run's log says where its joints were, without noise, also where they stop at once.
     std::vector<Eigen::VectorXd> rows;
+    rows.reserve(static_cast<std::size_t>(trial.joints.size()));
     for (int r = 0; r < trial.joints.size(); ++r) rows.emplace_back(trial.joints.value.row(r));
     return path_through(trial.joints.time, rows).spread(trial.joint_columns, start);
   }
