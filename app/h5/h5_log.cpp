@@ -140,8 +140,7 @@ class H5Watcher : public RunWatcher {
  public:
   H5Watcher(simulation::Simulation& simulation, PictureTaker* taker,
             const std::filesystem::path& path)
-      : sink_(path),
-        topics_(simulation, sink_, TopicRates{.states = simulation.scene().log_rate}, taker) {}
+      : sink_(path), topics_(simulation, sink_, rates_of_log(simulation), taker) {}
   void begin() override { topics_.begin(); }
   void after_step() override { topics_.after_step(); }
   void end() override { sink_.close(); }

@@ -77,7 +77,8 @@ void RosServer::begin() {
     simulation_->world().add(*follower_);
     actions_->lead(*simulation_, *robot, *follower_);
   }
-  const TopicRates rates{.states = simulation_->scene().log_rate};
+  const double rate = simulation_->scene().log_rate;
+  const TopicRates rates{.states = rate, .joints = rate};
   TopicSink& sink = both_ ? static_cast<TopicSink&>(*both_) : *sink_;
   told_ = std::make_unique<SimulationTopics>(*simulation_, sink, rates, taker_.get());
   told_->begin();

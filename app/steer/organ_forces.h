@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/world/sim_world.h"
 #include "plugins/simulation/plants/organ_places.h"
 #include "plugins/simulation/simulation.h"
-#include "engine/world/sim_world.h"
 
 namespace pedicel::app {
 

@@ -23,8 +23,7 @@ class McapWatcher : public RunWatcher {
  public:
   McapWatcher(simulation::Simulation& simulation, PictureTaker* taker,
               const std::filesystem::path& file)
-      : sink_(file),
-        topics_(simulation, sink_, TopicRates{.states = simulation.scene().log_rate}, taker) {}
+      : sink_(file), topics_(simulation, sink_, rates_of_log(simulation), taker) {}
   void begin() override { topics_.begin(); }
   void after_step() override { topics_.after_step(); }
   void end() override { sink_.close(); }

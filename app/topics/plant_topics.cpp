@@ -1,8 +1,9 @@
 #include "app/topics/plant_topics.h"
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/draw/drawing.h"
 #include "app/draw/plant_drawing.h"
@@ -159,34 +160,37 @@ void MarkerTopics::tell(double time) {
 }
 
 OrganTopic::OrganTopic(const simulation::Simulation& simulation, TopicSink& sink)
-    : simulation_(simulation), forces_(sink, "/organ_forces", Delivery::sensor) {}
+    : simulation_(simulation),
+      layout_(simulation),
+      forces_(sink, "/organ_forces", Delivery::sensor) {
+  for (const simulation::Quantity& one : simulation::quantities()) {
+    std::istringstream names{std::string(one.topic)};
+    told_.push_back({one, {std::istream_iterator<std::string>(names), {}}});
+  }
+}
 
+ros::InterfaceValue OrganTopic::told_of(const simulation::Row& row, simulation::Rows kind) const {
+  ros::InterfaceValue all;
+  for (const auto& [quantity, names] : told_) {
+    if (quantity.rows != kind || names.empty()) continue;
+    all.interface_names.insert(all.interface_names.end(), names.begin(), names.end());
+    all.values.resize(all.interface_names.size());
+    quantity.read(row, &all.values.end()[-quantity.columns]);
+  }
+  return all;
+}
+
+// What is not touched and cannot come off is not told.
 void OrganTopic::tell(double time) {
   ros::DynamicJointState all;
   all.header = {ros::stamp_of(time), world_frame};
-  const auto add = [&](const std::string& name, const coupling::ContactSum& touch, double used) {
-    if (touch.contacts == 0 && std::isnan(used)) return;
-    all.joint_names.push_back(name);
-    ros::InterfaceValue value{
-        {"force.x", "force.y", "force.z", "normal", "tangential"},
-        {touch.force_W.x(), touch.force_W.y(), touch.force_W.z(), touch.normal, touch.tangential}};
-    if (!std::isnan(used)) {
-      value.interface_names.emplace_back("margin_used");
-      value.values.push_back(used);
-    }
-    all.interface_values.push_back(std::move(value));
-  };
-  for (int p = 0; p < simulation_.rods().size(); ++p) {
-    const cosserat::RodModel& model = simulation_.rods().model(p);
-    const cosserat::RodState& state = simulation_.rods().state(p);
-    const coupling::ContactReport& contacts = simulation_.plant_step().contacts();
-    for (std::size_t o = 0; o < model.organs.size(); ++o)
-      add(model.organs[o], contacts.organs(p)[o], std::numeric_limits<double>::quiet_NaN());
-    for (int f = 0; f < static_cast<int>(model.fruits.size()); ++f)
-      if (!state.fruit_gone[f])
-        add(simulation::fruit_name(model, f), contacts.fruits(p)[static_cast<std::size_t>(f)],
-            cosserat::margin_used(model, state, f));
-  }
+  for (const simulation::Rows kind : {simulation::Rows::organ, simulation::Rows::fruit})
+    simulation::each_row(simulation_, layout_, kind, [&](const simulation::Row& row, int number) {
+      ros::InterfaceValue told = told_of(row, kind);
+      if (std::ranges::all_of(told.values, [](double value) { return value == 0.0; })) return;
+      all.joint_names.push_back(layout_.of(kind)[static_cast<std::size_t>(number)]);
+      all.interface_values.push_back(std::move(told));
+    });
   forces_.tell(time, all);
 }
 

@@ -3,6 +3,7 @@
 #include "app/topics/topic_source.h"
 #include "engine/ros_messages/control_messages.h"
 #include "engine/ros_messages/marker_messages.h"
+#include "plugins/simulation/quantities.h"
 
 namespace pedicel::app {
 
@@ -34,7 +35,15 @@ class OrganTopic : public TopicSource {
   void tell(double time) override;
 
  private:
+  struct Told {
+    const simulation::Quantity& quantity;
+    std::vector<std::string> names;
+  };
+  ros::InterfaceValue told_of(const simulation::Row& row, simulation::Rows kind) const;
+
   const simulation::Simulation& simulation_;
+  const simulation::RowLayout layout_;
+  std::vector<Told> told_;
   Teller<ros::DynamicJointState> forces_;
 };
 

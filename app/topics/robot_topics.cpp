@@ -4,22 +4,29 @@
 
 namespace pedicel::app {
 
-JointTopics::JointTopics(const simulation::RobotControl& robot, TopicSink& sink)
-    : robot_(robot),
+JointTopics::JointTopics(const simulation::Simulation& simulation, TopicSink& sink)
+    : simulation_(simulation),
+      layout_(simulation),
       states_(sink, "/joint_states", Delivery::sensor),
       commands_(sink, "/joint_commands", Delivery::sensor) {}
 
 void JointTopics::tell(double time) {
-  const robot::Robot& robot = robot_.robot();
+  const robot::Robot& robot = simulation_.robot()->robot();
   ros::JointState state;
   state.header.stamp = ros::stamp_of(time);
   state.names = robot.model().joint_names();
   ros::JointState command = state;
-  for (int i = 0; i < robot.model().dofs(); ++i) {
-    state.position.push_back(robot.positions()[i]);
-    state.velocity.push_back(robot.velocities()[i]);
-    state.effort.push_back(robot.motor_torques()[i]);
-    const robot::JointCommand& told = robot.motors().commands()[static_cast<std::size_t>(i)];
+  for (const simulation::Quantity& one : simulation::quantities()) {
+    if (one.rows != simulation::Rows::joint || one.topic.empty()) continue;
+    std::vector<double>& column = one.topic == "position"   ? state.position
+                                  : one.topic == "velocity" ? state.velocity
+                                                            : state.effort;
+    column.resize(state.names.size());
+    simulation::each_row(simulation_, layout_, one.rows, [&](const simulation::Row& row, int j) {
+      one.read(row, &column[static_cast<std::size_t>(j)]);
+    });
+  }
+  for (const robot::JointCommand& told : robot.motors().commands()) {
     command.position.push_back(told.position);
     command.velocity.push_back(told.velocity);
     command.effort.push_back(told.torque);

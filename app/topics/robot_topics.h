@@ -2,6 +2,7 @@
 
 #include "app/topics/topic_source.h"
 #include "engine/ros_messages/sensor_messages.h"
+#include "plugins/simulation/quantities.h"
 
 /// What the robot tells. Scenes without one have none of these.
 namespace pedicel::app {
@@ -10,11 +11,13 @@ namespace pedicel::app {
 /// /joint_commands: what the controller tells their motors.
 class JointTopics : public TopicSource {
  public:
-  JointTopics(const simulation::RobotControl& robot, TopicSink& sink);
+  /// Of a scene with a robot.
+  JointTopics(const simulation::Simulation& simulation, TopicSink& sink);
   void tell(double time) override;
 
  private:
-  const simulation::RobotControl& robot_;
+  const simulation::Simulation& simulation_;
+  const simulation::RowLayout layout_;
   Teller<ros::JointState> states_, commands_;
 };
 

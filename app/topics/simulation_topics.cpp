@@ -62,6 +62,10 @@ long due_by(double time, double rate) {
 
 }  // namespace
 
+TopicRates rates_of_log(const simulation::Simulation& simulation) {
+  return {.states = simulation.scene().log_rate, .joints = 1.0 / simulation.world().dt()};
+}
+
 SimulationTopics::SimulationTopics(simulation::Simulation& simulation, TopicSink& sink,
                                    const TopicRates& rates, PictureTaker* taker)
     : simulation_(simulation), sink_(sink) {
@@ -72,7 +76,7 @@ SimulationTopics::SimulationTopics(simulation::Simulation& simulation, TopicSink
   add(std::make_unique<ClockTopic>(sink), rates.states);
   if (simulation::RobotControl* robot = simulation.robot()) {
     add(std::make_unique<DescriptionTopic>(*robot, sink), rates.states);
-    add(std::make_unique<JointTopics>(*robot, sink), rates.states);
+    add(std::make_unique<JointTopics>(simulation, sink), rates.joints);
     // A sensor of the scene that is called so takes its place.
     const bool own = std::ranges::any_of(simulation.instruments(), [](const auto& one) {
       return one->kind().name == "wrench" && topic_part(one->scene().name) == "wrist";

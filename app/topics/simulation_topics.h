@@ -9,9 +9,14 @@
 namespace pedicel::app {
 
 struct TopicRates {
-  double states = 100.0;  ///< Hz, of simulated time: joints, frames, forces, the clock
+  double states = 100.0;  ///< Hz, of simulated time: frames, forces, the clock
+  double joints = 100.0;  ///< Hz, of joint states and commands
   double markers = 10.0;  ///< Hz, of what RViz draws
 };
+
+/// Of a file that keeps a run: the scene's log_rate; joints at each step, so that the run can be
+/// led along them again.
+TopicRates rates_of_log(const simulation::Simulation& simulation);
 
 /// Everything that a simulation tells on topics, to one sink.
 class SimulationTopics {

@@ -86,6 +86,14 @@ const Eigen::VectorXd& Dynamics::inverse(const Eigen::VectorXd& q, const Eigen::
   return torques_;
 }
 
+Wrench Dynamics::carried_wrench(int link) const {
+  const auto l = static_cast<std::size_t>(link);
+  const Quat back = poses_[l].rotation.conjugate();
+  Wrench wrench;
+  wrench << back * -states_[l].force, back * -states_[l].moment;
+  return wrench;
+}
+
 const Eigen::MatrixXd& Dynamics::mass_matrix(const Eigen::VectorXd& q) {
   for (int i = 0; i < mass_.cols(); ++i) {
     one_.setZero();

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/robot/kinematics.h"
+#include "engine/robot/carried_links.h"
 
 namespace pedicel::robot {
 
@@ -30,6 +30,10 @@ class Dynamics {
 
   /// The same for each element of the model (mimic joints by themselves), from the last inverse().
   const std::vector<double>& element_torques() const { return element_torques_; }
+
+  /// What a link and all that hangs on it exert on what carries them in the last inverse(): N and
+  /// N m about the link's origin, in its frame.
+  Wrench carried_wrench(int link) const;
 
   /// Joint-space mass matrix (kg, kg m, kg m2; dofs x dofs), one column an inverse() without
   /// motion.

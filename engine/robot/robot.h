@@ -7,8 +7,8 @@
 
 #include "engine/core/parameter.h"
 #include "engine/core/state_hash.h"
+#include "engine/robot/carried_links.h"
 #include "engine/robot/joint_motors.h"
-#include "engine/robot/kinematics.h"
 
 class btMultiBody;
 class btMultiBodyDynamicsWorld;
@@ -34,12 +34,6 @@ struct RobotSettings {
 struct RobotState {
   std::vector<double> joint_positions, joint_velocities;  ///< every moving joint, mimics too
   std::vector<double> base;  ///< floating base: position 3, rotation 4, angular and linear velocity
-};
-
-/// A force (N) and a moment (N m) about its point (m) on a link, world frame.
-struct LinkReaction {
-  int link = 0;
-  Vec3 force_W = Vec3::Zero(), point_W = Vec3::Zero(), moment_W = Vec3::Zero();
 };
 
 /// A robot as a btMultiBody in a world. Owns its Bullet objects and takes them out of the world

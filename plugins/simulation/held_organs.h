@@ -44,12 +44,12 @@ class HeldOrgans {
   struct Held {
     std::string what;
     int link = 0;
-    PlaceOnPlant place;   // of the spring that holds it
-    Vec3 position_L;      // m, of that place
-    Vec3 centre_L;        // m, of the organ
-    Quat rotation;        // E to L
-    Vec3 turning;         // N m/rad
-    double mass = 0.0;    // kg, of a fruit: once it is off the plant, the link carries it
+    PlaceOnPlant place;  // of the spring that holds it
+    Vec3 position_L;     // m, of that place
+    Vec3 centre_L;       // m, of the organ
+    Quat rotation;       // E to L
+    Vec3 turning;        // N m/rad
+    double mass = 0.0;   // kg, of a fruit: once it is off the plant, the link carries it
     std::array<Vec3, 2> before{Vec3::Zero(), Vec3::Zero()};  // m, W, at the last two steps
   };
 

@@ -28,6 +28,10 @@ bool is_gone(const Row& row) {
   return state_of(row).fruit_gone[row.index] != 0;
 }
 
+const coupling::ContactSum& fruit_touch(const Row& row) {
+  return row.simulation.plant_step().contacts().fruits(row.plant)[row.index];
+}
+
 const coupling::ContactSum& organ_touch(const Row& row) {
   return row.simulation.plant_step().contacts().organs(row.plant)[row.index];
 }
@@ -162,18 +166,36 @@ const std::vector<Quantity>& table() {
        read_segment_load},
       {"attached", Rows::segment, 1, "1", true, "false once a segment came off with its fruit",
        [](const Row& row, double* to) { *to = state_of(row).alive[row.index] != 0; }},
+      {"",
+       Rows::fruit,
+       3,
+       "N",
+       false,
+       "force of what touches each fruit on it, in the world",
+       [](const Row& row, double* to) { write(to, fruit_touch(row).force_W); },
+       {},
+       false,
+       "force.x force.y force.z"},
       {"", Rows::fruit, 2, "1 and rad", false, "strain of its stalk: stretch and bend",
        read_stalk_strain, "*_stretch_1 *_bend_rad"},
       {"", Rows::fruit, 1, "1", false, "share of a threshold that is used", read_margin,
-       "*_margin_used_1"},
+       "*_margin_used_1", false, "margin_used"},
       {"", Rows::fruit, 2, "N and N m", false, "force and moment in its stalk", read_stalk_size,
        "*_stalk_N *_stalk_Nm"},
       {"fruit_forces", Rows::fruit, 1, "N", false,
        "sum of the normal forces of what touches each fruit on its plant",
-       [](const Row& row, double* to) {
-         *to = row.simulation.plant_step().contacts().fruits(row.plant)[row.index].normal;
-       },
-       "*_contact_N"},
+       [](const Row& row, double* to) { *to = fruit_touch(row).normal; }, "*_contact_N", false,
+       "normal"},
+      {"",
+       Rows::fruit,
+       1,
+       "N",
+       false,
+       "friction at each fruit on its plant",
+       [](const Row& row, double* to) { *to = fruit_touch(row).tangential; },
+       {},
+       false,
+       "tangential"},
       {"fruit_positions", Rows::fruit, 3, "m", false,
        "each fruit's centre in the world, on the plant or off it", read_fruit_position,
        "- - *_z_m"},
@@ -192,14 +214,22 @@ const std::vector<Quantity>& table() {
          read_margin(row, to);
          if (is_gone(row)) *to = 1.0;
        }},
-      {"organ_forces", Rows::organ, 3, "N", false,
+      {"organ_forces",
+       Rows::organ,
+       3,
+       "N",
+       false,
        "force of what touches each organ on it, in the world",
-       [](const Row& row, double* to) { write(to, organ_touch(row).force_W); }},
+       [](const Row& row, double* to) { write(to, organ_touch(row).force_W); },
+       {},
+       false,
+       "force.x force.y force.z"},
       {"organ_contact_forces", Rows::organ, 1, "N", false, "sum of the normal forces at each organ",
-       [](const Row& row, double* to) { *to = organ_touch(row).normal; }, "contact_*_normal_N"},
+       [](const Row& row, double* to) { *to = organ_touch(row).normal; }, "contact_*_normal_N",
+       false, "normal"},
       {"", Rows::organ, 1, "N", false, "friction at each organ",
        [](const Row& row, double* to) { *to = organ_touch(row).tangential; },
-       "contact_*_tangential_N"},
+       "contact_*_tangential_N", false, "tangential"},
       {"link_forces", Rows::touching, 3, "N", false,
        "force of the plants on each link, body and the ground, in the world",
        [](const Row& row, double* to) {
@@ -217,20 +247,36 @@ const std::vector<Quantity>& table() {
       {"", Rows::joint, 1, "rad or m", false, "what each encoder reads",
        [](const Row& row, double* to) { *to = row.simulation.robot()->reading(row.index); },
        "joint_*_rad joint_*_m"},
-      {"joint_positions", Rows::joint, 1, "rad or m", false, "of the robot",
+      {"joint_positions",
+       Rows::joint,
+       1,
+       "rad or m",
+       false,
+       "of the robot",
        [](const Row& row, double* to) {
          *to = row.simulation.robot()->robot().positions()[row.index];
-       }},
-      {"joint_velocities", Rows::joint, 1, "rad/s or m/s", false, "of the robot",
+       },
+       {},
+       false,
+       "position"},
+      {"joint_velocities",
+       Rows::joint,
+       1,
+       "rad/s or m/s",
+       false,
+       "of the robot",
        [](const Row& row, double* to) {
          *to = row.simulation.robot()->robot().velocities()[row.index];
-       }},
+       },
+       {},
+       false,
+       "velocity"},
       {"joint_torques", Rows::joint, 1, "N m or N", false,
        "what each motor applied in the last step",
        [](const Row& row, double* to) {
          *to = row.simulation.robot()->robot().motor_torques()[row.index];
        },
-       "torque_*_Nm torque_*_N"},
+       "torque_*_Nm torque_*_N", false, "effort"},
       {"link_poses", Rows::link, 7, "m and 1", false,
        "position (m) and quaternion x y z w of each link's frame in the world",
        [](const Row& row, double* to) { write(to, row.simulation.robot()->link_pose(row.index)); }},

@@ -42,7 +42,7 @@ struct Row {
 };
 
 /// A quantity of a simulation: described and read here alone. Python's arrays with their stubs and
-/// pages, log.csv, the window's plots and scripts walk quantities().
+/// pages, log.csv, topics, the window's plots and scripts walk quantities().
 struct Quantity {
   std::string_view name;  ///< of Python's array; empty: it has none
   Rows rows = Rows::one;
@@ -55,6 +55,8 @@ struct Quantity {
   /// second is for those that slide.
   std::string_view log{};
   bool of_robot = false;  ///< without a robot it has no column
+  /// Its values on a topic: of joints on /joint_states, of organs and fruits on /organ_forces.
+  std::string_view topic{};
 };
 std::span<const Quantity> quantities();
 /// Calls take(row, number of the row) for every row of a kind.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "plugins/discrepancy/scene/run_effects.h"
 #include "plugins/cosserat/solver/rod_solver.h"
+#include "plugins/discrepancy/scene/run_effects.h"
 #include "plugins/simulation/colliders.h"
 #include "plugins/simulation/plants/plant_info.h"
 #include "plugins/simulation/robot_control.h"
@@ -38,7 +38,7 @@ struct SceneAssets {
   JointReadings readings;
   /// Fruits that come off feel a robot that readings lead, too. It takes Bullet's time.
   bool loose_fruits = false;
-  std::vector<Grasp> grasps;  ///< organs that links take hold of, likewise
+  std::vector<Grasp> grasps;       ///< organs that links take hold of, likewise
   std::vector<std::string> notes;  ///< what a user should know and that stops nothing
 
  private:

@@ -11,17 +11,17 @@
 
 #include "engine/world/scene.h"
 #include "engine/world/sim_world.h"
-#include "plugins/plant/plant_file.h"
 #include "plugins/coupling/collider.h"
+#include "plugins/plant/plant_file.h"
 #include "plugins/simulation/measurements.h"
-#include "plugins/simulation/robot_control.h"
-#include "plugins/simulation/simulation_options.h"
 #include "plugins/simulation/plants/cutting.h"
 #include "plugins/simulation/plants/gentleness.h"
 #include "plugins/simulation/plants/plant_info.h"
 #include "plugins/simulation/plants/scene_loads.h"
 #include "plugins/simulation/plants/scene_ties.h"
 #include "plugins/simulation/plants/wind_field.h"
+#include "plugins/simulation/robot_control.h"
+#include "plugins/simulation/simulation_options.h"
 
 namespace pedicel::simulation {
 

@@ -111,7 +111,7 @@ void ContactTerms::make_rows(const RodModel& model) {
   blocks_.resize(rows * lane_count);
   ends_.resize(rows);
   stay_.resize((rows + stretch_length - 1) / stretch_length);
-  memory_.resize(model.shapes.size());
+  memory_.resize(model);
   // The last row may be filled in part only, and had other contacts in it before. Its free lanes
   // must add nothing to the sums, which are made over whole rows.
   if (rows > 0) rows_.back() = empty_contact_row();
@@ -140,12 +140,19 @@ void ContactTerms::put(std::size_t contact, const RodModel& model) {
   // The first step of a contact has no memory, and so no friction: see the head of this class.
   // A joint that presses may touch a shape with one collider in several places, which stay, so
   // these are told apart by where they are, too. All others have a number for each of their places.
-  const FrictionMemory::Spring* const memory =
+  const FrictionMemory::Spring* memory =
       pressed ? memory_.find_by_back(point) : memory_.find(point);
-  cosserat::put(row.stretch, lane, memory ? memory->stretch_W : Vec3(0, 0, 0));
   // N is of the step before and so a constant of this one. With N of the iterate the potential
   // would not be one, and a line search would have nothing to descend.
-  row.limit[lane] = memory ? point.friction * memory->normal : 0.0;
+  double normal = memory ? memory->normal : 0.0;
+  if (!memory && !pressed && contact >= sides_) {
+    memory = memory_.find_beyond_node(point, model);
+    // The segment before may still bear the collider: this one rubs by no more than it bears.
+    const double bears = row.stiffness[lane] * std::max(0.0, point.margin - point.gap);
+    if (memory) normal = std::min(memory->normal, bears);
+  }
+  cosserat::put(row.stretch, lane, memory ? memory->stretch_W : Vec3(0, 0, 0));
+  row.limit[lane] = point.friction * normal;
 }
 
 void ContactTerms::push(std::size_t first, std::size_t end, const RodState& iterate) {

@@ -22,7 +22,8 @@ namespace pedicel::cosserat {
 /// without creeping. N is that of the step before, as in Li et al., Incremental Potential Contact
 /// (2020), and so the first step of a contact is without friction: taken from the iterate, which
 /// may lie millimetres inside of a moving collider, N tears thin stems about and Newton does not
-/// converge.
+/// converge. A contact that passes a node, or begins beside one, goes on with the spring of the
+/// segment before (FrictionMemory::find_beyond_node()).
 ///
 /// A collider that gives way (ContactPoint::give, its inverse mass times dt^2) is one more spring
 /// in series: backward Euler for the collider's own motion, so that light links and stiff stems do

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "plugins/cosserat/contact/contact.h"
+#include "plugins/cosserat/model/rod_model.h"
 
 namespace pedicel::cosserat {
 
@@ -19,10 +20,15 @@ class FrictionMemory {
     int place;   // ContactPoint::place
   };
 
-  /// For plants of so many shapes.
-  void resize(std::size_t shapes) { last_of_shape_.resize(shapes, -1); }
+  /// For this plant, whose segments stay as they hang together.
+  void resize(const RodModel& model);
   /// What is remembered of a contact; null: nothing.
-  const Spring* find(const ContactPoint& point) const;
+  const Spring* find(const ContactPoint& point) const { return find(point, point.shape); }
+  /// What is remembered of the same collider on the next segment, where the contact is new and near
+  /// the node between the two: the place that is touched slides along the stem, or lies on the node
+  /// and is found on either side. Null: nothing. The two sides of a contact of the plant with
+  /// itself must not ask: they would pass a node one after the other.
+  const Spring* find_beyond_node(const ContactPoint& point, const RodModel& model) const;
   /// The same of a collider that touches a shape in several places of one number, which stay.
   const Spring* find_by_back(const ContactPoint& point) const;
 
@@ -33,6 +39,11 @@ class FrictionMemory {
   void forget();
 
  private:
+  const Spring* find(const ContactPoint& point, int shape) const;
+
+  std::vector<int> stem_of_element_;  // its shape; -1: none
+  // Children of an element follow each other; -1: none, or no more.
+  std::vector<int> first_child_, next_child_;
   std::vector<Spring> springs_;
   // Springs of a shape follow each other: its last one, and which one comes before it; -1: none.
   std::vector<int> last_of_shape_, before_;

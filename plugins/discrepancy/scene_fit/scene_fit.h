@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "plugins/discrepancy/scene/scene_effects.h"
+#include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "plugins/discrepancy/scene_predict/scene_simulator.h"
 #include "plugins/discrepancy/settings/scene_settings.h"
 #include "plugins/discrepancy/simulate/hypothesis.h"

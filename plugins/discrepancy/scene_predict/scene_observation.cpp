@@ -114,6 +114,8 @@ class Observer {
     const WrenchSensor& sensor = experiment_.wrenches[index];
     const SceneState::Gauge& gauge = member_.state->gauges[index];
     const double half = half_sample(samples.time);
+    robot::Dynamics dynamics(member_.arm->description(), member_.arm->model());
+    const robot::CarriedLinks links(member_.arm->description(), sensor.link);
     Eigen::MatrixXd out(samples.size(), 6);
     for (int s = 0; s < samples.size(); ++s) {
       const double t = samples.time[static_cast<std::size_t>(s)];
@@ -125,15 +127,14 @@ class Observer {
       if (const double dt = member_.run_step; dt > 0.0) {
         // What a run says in the middle of a step is the step's.
         const double end = t + 0.5 * dt;
-        out.row(s) = member_.arm
-                         ->own_wrench(sensor.link, joints(end - dt, 0.0), joints(end, 0.0), dt,
-                                      experiment_.scene.gravity)
-                         .transpose() +
-                     mean_over(motion_.time, motion_.contact, column, 6, end, end);
+        out.row(s) =
+            weight_in_step(links, joints(end - dt, 0.0), joints(end, 0.0), dt).transpose() +
+            mean_over(motion_.time, motion_.contact, column, 6, end, end);
         continue;
       }
       const JointPath::Point q = joints(t, half);
-      out.row(s) = member_.arm->own_wrench(sensor.link, q, experiment_.scene.gravity).transpose() +
+      dynamics.inverse(q.q, q.qd, q.qdd, experiment_.scene.gravity);
+      out.row(s) = dynamics.carried_wrench(sensor.link).transpose() +
                    mean_over(motion_.time, motion_.contact, column, 6, t - half, t + half);
     }
     out *= gauge.gain;
@@ -189,6 +190,20 @@ class Observer {
     point.qd += given.segment(dofs, dofs).transpose();
     point.qdd += given.segment(2 * dofs, dofs).transpose();
     return point;
+  }
+
+  // Of a step of `dt` (s), as a run makes it.
+  robot::Wrench weight_in_step(const robot::CarriedLinks& links, const JointPath::Point& begin,
+                               const JointPath::Point& end, double dt) const {
+    std::vector<Pose> poses;
+    std::vector<robot::Twist> twists;
+    const auto momentum = [&](const JointPath::Point& at) {
+      member_.arm->model().link_poses(at.q, poses);
+      member_.arm->model().link_velocities(poses, at.qd, twists);
+      return links.momentum(poses, twists);
+    };
+    const auto before = momentum(begin), now = momentum(end);
+    return links.weight(poses, before, now, dt, experiment_.scene.gravity);
   }
 
   // N m, of plants on the motors: through the springs, where there are any.

@@ -42,7 +42,7 @@ Makers makers_of(const SceneExperiment& experiment, const SceneTrial& trial,
 SceneNumerics numerics_of(const SceneExperiment& experiment, SceneNumerics numerics) {
   if (!experiment.is_run) return numerics;
   numerics.as_run = true;
-  numerics.dt = experiment.scene.dt;
+  numerics.dt = numerics.run_steps * experiment.scene.dt;
   numerics.distance = std::numeric_limits<double>::infinity();  // the plant file's
   return numerics;
 }
@@ -154,7 +154,7 @@ struct SceneSimulator::Impl {
                      std::min(request.until, trial.duration()), all) +
               key_of(request.variant->forces) + (request.variant->plants_away ? "|away" : "");
     out.member.forces = request.variant->forces;
-    if (numerics.as_run) out.member.run_step = numerics.dt;
+    if (numerics.as_run) out.member.run_step = experiment.scene.dt;
     out.path = &path(request.trial, request.variant->draw);
     return out;
   }

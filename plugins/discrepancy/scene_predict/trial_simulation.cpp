@@ -172,6 +172,8 @@ class MemberRun {
     motion_.healthy = parts.rests();
     simulation_.emplace(parts.assets());
     find_places(makers);
+    for (const WrenchSensor& sensor : experiment.wrenches)
+      sensors_.emplace_back(member.arm->description(), sensor.link);
     const long markers = static_cast<long>(experiment.markers.size());
     const long dofs = member.arm->model().dofs();
     motion_.position.setZero(steps + 1, 3 * markers);
@@ -257,7 +259,7 @@ class MemberRun {
     const simulation::SceneContacts& contacts = simulation_->contacts();
     for (std::size_t w = 0; w < experiment_.wrenches.size(); ++w)
       motion_.contact.row(row).segment<6>(6 * static_cast<long>(w)) =
-          wrench_at(experiment_.wrenches[w].link, contacts.link_forces()).transpose();
+          sensors_[w].felt(simulation_->robot()->link_poses(), contacts.link_forces()).transpose();
     motion_.effort.row(row) = contacts.effort().transpose();
     // A stem may lean on the arm from the start, and before the first step no force is known.
     if (row == 1) {
@@ -265,22 +267,6 @@ class MemberRun {
       motion_.effort.row(0) = motion_.effort.row(1);
     }
     if (simulation_->giving()) motion_.given.row(row) = simulation_->giving()->row();
-  }
-
-  // N and N m in a link's frame, about its origin, of forces on it and on all beyond it.
-  Eigen::Matrix<double, 6, 1> wrench_at(int link,
-                                        std::span<const robot::LinkReaction> forces) const {
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-    const Pose& pose = simulation_->robot()->link_pose(link);
-    const std::vector<int>& beyond = member_.arm->beyond(link);
-    for (const robot::LinkReaction& one : forces) {
-      if (std::ranges::find(beyond, one.link) == beyond.end()) continue;
-      force += one.force_W;
-      moment += one.moment_W + (one.point_W - pose.position).cross(one.force_W);
-    }
-    Eigen::Matrix<double, 6, 1> wrench;
-    wrench << pose.rotation.conjugate() * force, pose.rotation.conjugate() * moment;
-    return wrench;
   }
 
   bool judge() {
@@ -298,6 +284,7 @@ class MemberRun {
 
   const SceneExperiment& experiment_;
   const SceneMember& member_;
+  std::vector<robot::CarriedLinks> sensors_;  // of the experiment's wrenches
   std::optional<simulation::Simulation> simulation_;
   std::vector<plant::PlacedPoint> places_;  // of the markers
   std::vector<std::size_t> slots_;          // of outside forces among their plant's loads
@@ -314,6 +301,7 @@ class Stepper {
     if (touching || !experiment.scene.ties.empty() || rods.solver != cosserat::SolverKind::direct)
       return;
     std::vector<cosserat::RodSystem*> systems;
+    systems.reserve(runs.size());
     for (const auto& run : runs) systems.push_back(&run->simulation().rods());
     joined_.emplace(rods, std::move(systems));
   }
@@ -375,6 +363,7 @@ std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, cons
     if (!any) break;
   }
   std::vector<SceneMotion> motions;
+  motions.reserve(runs.size());
   for (const auto& run : runs) motions.push_back(run->take());
   return motions;
 }

@@ -26,6 +26,7 @@ struct SceneNumerics {
   /// Step, mesh, margin, solver and start are those of a run of the scene, and not the above: what
   /// was measured is a log of such a run.
   bool as_run = false;
+  double run_steps = 1.0;  ///< then: of the run that one step of the prediction takes
 };
 
 /// What plants and arm really did in a trial, step by step.
@@ -71,8 +72,9 @@ struct SceneMember {
 /// experiment, built for the trial's poses. `fields`: of the robot.
 std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, const SceneTrial& trial,
                                          std::span<const std::unique_ptr<PlantMaker>> makers,
-                                         const simulation::ShapeFields& fields, const SceneNumerics& numerics,
-                                         double until, std::span<const SceneMember> members,
+                                         const simulation::ShapeFields& fields,
+                                         const SceneNumerics& numerics, double until,
+                                         std::span<const SceneMember> members,
                                          const std::atomic<bool>& stop);
 
 /// The joints of the arm at a time as its state says: readings with delay and offsets.

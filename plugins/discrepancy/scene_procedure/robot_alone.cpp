@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/io/csv.h"
+#include "engine/robot/carried_links.h"
 #include "plugins/discrepancy/scene/scene_effects.h"
 
 namespace pedicel::discrepancy {
@@ -232,8 +233,9 @@ class RobotAlone {
   // m, W: where the line of a force first meets what collides of the links beyond the sensor.
   std::optional<Vec3> entry(const Arm& arm, const std::vector<Pose>& links, int link,
                             const Vec3& on_line, const Vec3& along) const {
+    const robot::CarriedLinks carried(arm.description(), link);
     const auto inside = [&](const Vec3& place) {
-      for (const int l : arm.beyond(link)) {
+      for (const int l : carried.links()) {
         const auto at = static_cast<std::size_t>(l);
         const auto& shapes = arm.description().links[at].collisions;
         for (std::size_t c = 0; c < shapes.size(); ++c) {

@@ -76,6 +76,8 @@ class Procedure {
     // Never finer than what judges: an experiment may ask for less than the search's default.
     how.distance = std::max(options_.settings.search.mesh, options_.numerics.distance);
     how.dt = std::max(options_.settings.search.dt, options_.numerics.dt);
+    how.run_steps =
+        std::max(1.0, std::round(options_.settings.search.run_dt / experiment_.scene.dt));
     return how;
   }
 

@@ -31,6 +31,7 @@ struct SceneSearchSettings {
   double too_alike = Evidence{}.too_alike;      ///< cosine
   double mesh = 0.02;                           ///< m
   double dt = 2.0e-3;                           ///< s
+  double run_dt = 8.0e-3;                       ///< s
   int baseline_iterations = 6;
   int first_iterations = 4;
   int last_iterations = 4;

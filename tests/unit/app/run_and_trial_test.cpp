@@ -3,6 +3,7 @@
 
 #include "engine/world/scene_reader.h"
 #include "plugins/simulation/colliders.h"
+#include "plugins/simulation/link_wrench.h"
 #include "plugins/simulation/simulation.h"
 #include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
@@ -21,6 +22,7 @@ struct Recorded {
   Eigen::VectorXd joint;         // rad
   Eigen::MatrixXd tip;           // m, W
   std::vector<double> touching;  // N, of the stem on the finger
+  Eigen::MatrixXd wrench;        // N and N m, in the finger's wrist
   std::vector<double> detached;  // s
 };
 
@@ -44,9 +46,12 @@ class RunAndTrial : public testing::Test {
     out.joint.resize(steps + 1);
     out.tip.resize(steps + 1, 3);
     const int finger = simulation.robot()->description().link("finger");
+    simulation::LinkWrench wrist(simulation, finger);
+    out.wrench.setZero(steps + 1, 6);
     for (int k = 0; k <= steps; ++k) {
       if (k > 0) {
         EXPECT_EQ(simulation.step().errors, 0u);
+        out.wrench.row(k) = wrist.carried().transpose();
         for (int p = 0; p < simulation.rods().size(); ++p)
           for (std::size_t d = 0; d < simulation.rods().detached(p).size(); ++d)
             out.detached.push_back(dt * k);
@@ -79,7 +84,9 @@ class RunAndTrial : public testing::Test {
     trial.markers = table(trial.markers.value.cols());
     trial.torques = {};
     trial.pixels.assign(made.cameras.size(), {});
-    trial.wrenches.assign(made.wrenches.size(), {});
+    // A run's log tells the wrench of a step in the step's middle.
+    trial.wrenches = {table(6)};
+    for (double& time : trial.wrenches.front().time) time -= 0.5 * dt;
     return made;
   }
 
@@ -92,6 +99,9 @@ class RunAndTrial : public testing::Test {
     for (int k = 0; k <= steps; k += 25)
       ASSERT_LT((found.markers.row(k).head<3>() - ran.tip.row(k)).norm(), tolerance)
           << "at " << dt * k << " s, " << ran.touching[static_cast<std::size_t>(k)] << " N";
+    for (int k = 1; k <= steps; ++k)
+      ASSERT_LT((found.wrenches.front().row(k) - ran.wrench.row(k)).norm(), 1.0e5 * tolerance)
+          << "at " << dt * k << " s: " << ran.wrench.row(k);
     ASSERT_EQ(found.events.size(), ran.detached.size());
     for (std::size_t d = 0; d < ran.detached.size(); ++d)
       EXPECT_NEAR(found.events[d].time, ran.detached[d], 1.0e-9);

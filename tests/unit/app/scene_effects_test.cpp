@@ -78,7 +78,8 @@ class RunOfScene : public testing::Test {
     const Said run_says = run(effects, until), model_says = predicted(effects, until);
     EXPECT_LT((run_says.tip - model_says.tip).norm(), 6.0e-4);
     EXPECT_LT((run_says.nail - model_says.nail).norm(), 3.0e-4);
-    EXPECT_LT((run_says.wrench - model_says.wrench).norm(), 0.07);
+    EXPECT_LT((run_says.wrench - model_says.wrench).norm(), 0.07)
+        << run_says.wrench.transpose() << " for " << model_says.wrench.transpose();
   }
 
   ArmAtStem at_;

@@ -211,6 +211,58 @@ TEST(ContactTerms, FrictionSlipsAtItsLimit) {
   EXPECT_GT(slipping.tip.y(), 1e-2);
 }
 
+// A floor beneath the node before the tip. In turn the segment before the node is found to touch
+// it, and the one behind.
+class FloorBelowNode : public ContactSource {
+ public:
+  double height = 0.0, friction = 0.5;
+
+  void begin_step(const RodModel&, const RodState&, double) override { behind_ = !behind_; }
+  void find(const RodModel& model, const RodState& state, double,
+            std::vector<ContactPoint>& found) override {
+    ContactPoint point;
+    point.shape = behind_ ? 9 : 8;
+    point.back = behind_ ? model.elements[9].length : 0.0;
+    point.radius = PeerCantilever::radius;
+    point.normal_W = Vec3::UnitZ();
+    point.gap = point_on(model, state, point.shape, point.back).z() - point.radius - height;
+    point.friction = friction;
+    point.stiffness = 1000.0;
+    found.push_back(point);
+  }
+
+ private:
+  bool behind_ = false;
+};
+
+// m, by which 0.2 N across move a node that is pressed on the floor with 1 N, in 5 s.
+double node_moves(double friction) {
+  RodModel model = PeerCantilever::model(10);
+  for (Element& element : model.elements) {
+    element.mass_damping = 20.0;
+    element.damping_time = 0.05;
+  }
+  finish(model);
+  Simulation sim(model);
+  FloorBelowNode floor;
+  floor.friction = friction;
+  floor.height = sim.state.position[8].z() - PeerCantilever::radius;
+  sim.contacts.push_back(&floor);
+  sim.loads.push_back({8, 0.0, Vec3(0, 0, -1.0), no_gravity});
+  for (int i = 0; i < 240; ++i) sim.step(1.0 / 240.0, no_gravity);
+  sim.loads[0].force_W.y() = 0.2;
+  for (int i = 0; i < 1200; ++i) sim.step(1.0 / 240.0, no_gravity);
+  const double tangential = sim.solver->contact_forces().at(0).tangential_W.y();
+  EXPECT_NEAR(-tangential, friction > 0.0 ? 0.2 : 0.0, 0.01);
+  return sim.state.position[8].y();
+}
+
+// Where friction began anew on each segment, nothing held the node. It gives way by the spring's
+// 0.2 mm, and by what the two segments roll on in turn.
+TEST(ContactTerms, FrictionHoldsOnANode) {
+  EXPECT_LT(node_moves(0.5), 0.01 * node_moves(0.0));
+}
+
 // A floor that moves takes the tip along: surface motion is what friction works against.
 TEST(ContactTerms, AMovingSurfaceCarriesThePlant) {
   for (const SolverKind kind : {SolverKind::direct, SolverKind::position_based}) {

@@ -50,7 +50,7 @@ TEST(LogImport, AProposedMapMakesAnExperimentOfARun) {
   ASSERT_EQ(experiment.trials.size(), 1U);
   const discrepancy::SceneTrial& trial = experiment.trials.front();
   EXPECT_EQ(trial.name, "run");
-  EXPECT_EQ(trial.joints.size(), 121);
+  EXPECT_EQ(trial.joints.size(), 1201);
   EXPECT_EQ(trial.joints.time.front(), 0.0);
   EXPECT_NEAR(trial.joints.value(trial.joints.size() - 1, 0), run.joint(1.2), 2e-3);
   EXPECT_EQ(trial.markers.size(), 121);
@@ -101,7 +101,7 @@ trials:
   EXPECT_EQ(trial.name, "late");
   EXPECT_EQ(trial.clock, 3.0);
   EXPECT_EQ(trial.use, discrepancy::Trial::Use::check);
-  EXPECT_EQ(trial.joints.size(), 51);
+  EXPECT_EQ(trial.joints.size(), 501);
   EXPECT_NEAR(trial.joints.value(0, 0), run.joint(0.5), 2e-3);
   EXPECT_TRUE(trial.commands.time.empty());
   EXPECT_GT(trial.wrenches.front().value(0, 2), 3.0) << "turned round";
