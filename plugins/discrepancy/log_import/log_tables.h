@@ -11,12 +11,12 @@ namespace pedicel::discrepancy {
 struct LogTrial {
   std::string name, use, text;
   bool is_run = false;  ///< of a simulation of Pedicel
-  double clock = 0.0;  ///< s
+  double clock = 0.0;   ///< s
   std::vector<std::string> joint_names, command_names, torque_names;
   Samples joints, commands, torques;  ///< rad or m; N m or N
   Samples markers;                    ///< m, W, three columns a marker of the map
   std::vector<Samples> wrenches;      ///< N and N m, one a wrench of the map
-  std::vector<SceneEvent> events;
+  std::vector<MeasuredEvent> events;
   std::vector<std::string> remarks;  ///< what was left out, a sentence each
 };
 

@@ -40,8 +40,8 @@ struct SceneMotion {
   /// steps x 3 dofs, rad, rad/s, rad/s2: how far joints gave way, how fast, and its change. Empty
   /// where they do not.
   Rows given;
-  std::vector<SceneEvent> events;  ///< fruits that came off
-  bool healthy = true;             ///< false: the simulation failed where the rows end
+  std::vector<MeasuredEvent> events;  ///< fruits that came off
+  bool healthy = true;                ///< false: the simulation failed where the rows end
 };
 
 /// A force from outside on a place of a plant.
@@ -71,8 +71,9 @@ struct SceneMember {
 /// experiment, built for the trial's poses. `fields`: of the robot.
 std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, const SceneTrial& trial,
                                          std::span<const std::unique_ptr<PlantMaker>> makers,
-                                         const simulation::ShapeFields& fields, const SceneNumerics& numerics,
-                                         double until, std::span<const SceneMember> members,
+                                         const simulation::ShapeFields& fields,
+                                         const SceneNumerics& numerics, double until,
+                                         std::span<const SceneMember> members,
                                          const std::atomic<bool>& stop);
 
 /// The joints of the arm at a time as its state says: readings with delay and offsets.
