@@ -6,6 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/core/diagnostics.h"
 #include "engine/io/number_text.h"
+#include "engine/io/unit_text.h"
 
 namespace pedicel::app {
 

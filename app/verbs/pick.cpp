@@ -9,6 +9,7 @@
 #include "engine/core/check.h"
 #include "engine/core/exit_code.h"
 #include "engine/io/output_kind.h"
+#include "engine/io/unit_text.h"
 #include "plugins/discrepancy/pick/pick_labels.h"
 #include "plugins/discrepancy/pick/pick_report.h"
 #include "plugins/discrepancy/pick/pick_text.h"

@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "app/session/document/document.h"
@@ -34,13 +35,16 @@ struct Options {
   double unit = 0.0;  ///< m, of the lengths in tables and MTGs; 0: as they say
 };
 
+using Check =
+    std::function<std::string(const std::filesystem::path&, const Options&, Diagnostics&)>;
+
 /// Reads one kind of file; faults go to the diagnostics, or come as InvalidFile. What is worth
 /// knowing of a good one comes back.
 struct Kind {
   const char* format;     ///< of `format:`; empty: none
   const char* extension;  ///< empty: none of its own
   const char* name;
-  std::string (*check)(const std::filesystem::path&, const Options&, Diagnostics&);
+  Check check;
 };
 
 // Built, as a scene would.
@@ -61,25 +65,12 @@ std::string check_plant(const std::filesystem::path& path, const Options&,
   return check_built(plant::read_plant_file(path, diagnostics), path, diagnostics);
 }
 
-std::string check_source(const std::filesystem::path& path, plant::SourceKind kind,
-                         const Options& options, Diagnostics& diagnostics) {
-  return check_built(plant::read_plant_source(path, options.unit, diagnostics, kind), path,
-                     diagnostics);
-}
-
-std::string check_mtg(const std::filesystem::path& path, const Options& options,
-                      Diagnostics& diagnostics) {
-  return check_source(path, plant::SourceKind::mtg, options, diagnostics);
-}
-
-std::string check_ply(const std::filesystem::path& path, const Options& options,
-                      Diagnostics& diagnostics) {
-  return check_source(path, plant::SourceKind::ply_skeleton, options, diagnostics);
-}
-
-std::string check_helios(const std::filesystem::path& path, const Options& options,
-                         Diagnostics& diagnostics) {
-  return check_source(path, plant::SourceKind::helios_xml, options, diagnostics);
+Check check_source(plant::SourceKind kind) {
+  return
+      [kind](const std::filesystem::path& path, const Options& options, Diagnostics& diagnostics) {
+        return check_built(plant::read_plant_source(path, options.unit, diagnostics, kind), path,
+                           diagnostics);
+      };
 }
 
 std::string check_leaf(const std::filesystem::path& path, const Options&,
@@ -152,55 +143,29 @@ std::string check_variation(const std::filesystem::path& path, const Options&, D
   return std::to_string(count) + (count == 1 ? " number varies" : " numbers vary");
 }
 
-template <TableKind kind>
-std::string check_table_of(const std::filesystem::path& path, const Options& options,
-                           Diagnostics& diagnostics) {
-  if constexpr (kind == TableKind::skeleton || kind == TableKind::cylinders)
-    return check_source(path, plant::SourceKind::skeleton_table, options, diagnostics);
-  return check_table(path, kind, diagnostics);
-}
+const Kind robot_kind{"", "", "robot", check_robot};
+const Kind mtg_kind{"", ".mtg", "digitised plant", check_source(plant::SourceKind::mtg)};
+const std::array kinds = {
+    Kind{"pedicel-plant", "", "plant", check_plant},
+    Kind{"pedicel-experiment", "", "experiment", check_experiment},
+    Kind{"pedicel-scene", "", "scene", check_scene},
+    Kind{"pedicel-leaf", "", "leaf template", check_leaf},
+    Kind{"pedicel-variation", "", "variation", check_variation},
+    mtg_kind,
+    Kind{"", ".ply", "skeleton", check_source(plant::SourceKind::ply_skeleton)},
+    Kind{"", ".stl", "mesh", check_mesh},
+    Kind{"", ".obj", "mesh", check_mesh},
+    Kind{"", ".dae", "mesh", check_mesh},
+    Kind{"", ".gltf", "mesh", check_mesh},
+    Kind{"", ".glb", "mesh", check_mesh}};
 
-template <TableKind kind>
-Kind table() {
-  return {"", "", name_of(kind), check_table_of<kind>};
-}
-
-constexpr Kind robot_kind{"", "", "robot", check_robot};
-constexpr std::array kinds = {Kind{"pedicel-plant", "", "plant", check_plant},
-                              Kind{"pedicel-experiment", "", "experiment", check_experiment},
-                              Kind{"pedicel-scene", "", "scene", check_scene},
-                              Kind{"pedicel-leaf", "", "leaf template", check_leaf},
-                              Kind{"pedicel-variation", "", "variation", check_variation},
-                              Kind{"", ".mtg", "digitised plant", check_mtg},
-                              Kind{"", ".ply", "skeleton", check_ply},
-                              Kind{"", ".stl", "mesh", check_mesh},
-                              Kind{"", ".obj", "mesh", check_mesh},
-                              Kind{"", ".dae", "mesh", check_mesh},
-                              Kind{"", ".gltf", "mesh", check_mesh},
-                              Kind{"", ".glb", "mesh", check_mesh}};
-
-Kind kind_of_table(TableKind kind) {
-  switch (kind) {
-    case TableKind::skeleton:
-      return table<TableKind::skeleton>();
-    case TableKind::cylinders:
-      return table<TableKind::cylinders>();
-    case TableKind::markers:
-      return table<TableKind::markers>();
-    case TableKind::path:
-      return table<TableKind::path>();
-    case TableKind::force:
-      return table<TableKind::force>();
-    case TableKind::wrench:
-      return table<TableKind::wrench>();
-    case TableKind::events:
-      return table<TableKind::events>();
-    case TableKind::trajectory:
-      return table<TableKind::trajectory>();
-    case TableKind::unknown:
-      break;
-  }
-  return table<TableKind::unknown>();
+Kind kind_of_table(const TableKind& table) {
+  if (table.check == nullptr)
+    return {"", "", table.name, check_source(plant::SourceKind::skeleton_table)};
+  return {"", "", table.name,
+          [&table](const std::filesystem::path& path, const Options&, Diagnostics& diagnostics) {
+            return table.check(path, diagnostics);
+          }};
 }
 
 std::string expected_kinds() {
@@ -228,12 +193,13 @@ std::string lower_extension(const std::filesystem::path& path) {
 /// By what the text begins with, where the name does not tell.
 std::optional<Kind> kind_of_text(const std::filesystem::path& path, const std::string& extension) {
   const std::string text = io::read_text_file(path);
-  if (plant::is_helios_xml(text)) return Kind{"", "", "plant structure of Helios", check_helios};
+  if (plant::is_helios_xml(text))
+    return Kind{"", "", "plant structure of Helios", check_source(plant::SourceKind::helios_xml)};
   if (robot::is_robot_text(text)) return robot_kind;
   if (text.find("\nMTG") != std::string::npos && text.find("CODE") != std::string::npos)
-    return Kind{"", "", "digitised plant", check_mtg};
-  if (const auto table = table_kind(path)) return kind_of_table(*table);
-  if (extension == ".csv") return kind_of_table(TableKind::unknown);
+    return mtg_kind;
+  if (const TableKind* table = table_kind(path)) return kind_of_table(*table);
+  if (extension == ".csv") return kind_of_table(unknown_table);
   if (is_script(path)) return Kind{"", "", "script", check_commands};
   return std::nullopt;
 }
@@ -263,7 +229,7 @@ void write_lines(const std::string& lines, std::ostream& out) {
 bool validate(const std::filesystem::path& path, const Options& options, std::ostream& out) {
   Diagnostics diagnostics;
   try {
-    const Kind& kind = kind_of(path);
+    const Kind kind = kind_of(path);
     const std::string known = kind.check(path, options, diagnostics);
     write_lines(diagnostics.text(), out);
     if (!diagnostics.has_errors())

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "engine/core/diagnostics.h"
@@ -9,28 +8,18 @@
 namespace pedicel::app {
 
 /// A table that the program reads, told by its header.
-enum class TableKind {
-  skeleton,
-  cylinders,
-  markers,
-  path,
-  force,
-  wrench,
-  events,
-  trajectory,
-  unknown
+struct TableKind {
+  const char* name;  ///< for "FILE: markers, good"
+  /// Reads it as those do who use it, as far as the table alone allows. What is worth knowing of a
+  /// good one comes back. nullptr: it is a plant, whose skeleton or cylinders are read and built.
+  std::string (*check)(const std::filesystem::path& path, Diagnostics& diagnostics);
 };
 
-/// What a file's header says; nothing where the file is no table (one column, or no text).
-std::optional<TableKind> table_kind(const std::filesystem::path& path);
+/// What nothing reads is an error that names the columns.
+extern const TableKind unknown_table;
 
-/// "skeleton", "markers", ...: for "FILE: markers, good".
-const char* name_of(TableKind kind);
-
-/// Reads a table of a kind as those do who use it, as far as the table alone allows. What is worth
-/// knowing of a good one comes back. What nothing reads is an error that names the columns.
-std::string check_table(const std::filesystem::path& path, TableKind kind,
-                        Diagnostics& diagnostics);
+/// What a file's header says; nullptr where the file is no table (one column, or no text).
+const TableKind* table_kind(const std::filesystem::path& path);
 
 /// Whether a text begins with a command, as scripts do.
 bool is_script(const std::filesystem::path& path);

@@ -13,54 +13,24 @@
 #include "engine/io/csv_cell.h"
 #include "engine/io/table_text.h"
 #include "engine/io/text_file.h"
+#include "engine/io/unit_text.h"
 
 namespace pedicel::io {
 
 namespace {
 
-/// Takes a table's rows as numbers.
-class Reader {
- public:
-  Reader(std::string_view text, const std::string& file, const CsvRules& rules,
-         Diagnostics& diagnostics)
-      : source_(text, file, diagnostics), rules_(rules), diagnostics_(diagnostics) {}
-
-  CsvTable read() {
-    if (!source_.good()) return {};
-    table_.file = source_.file();
-    table_.header_line = source_.header_line();
-    table_.separator = source_.dialect().separator;
-    for (const TableColumn& column : source_.columns()) {
-      table_.columns.push_back(column.name);
-      table_.units.push_back(column.unit);
-    }
-    const int before = diagnostics_.error_count();
-    while (source_.next()) take_row();
-    if (table_.rows.empty() && diagnostics_.error_count() == before)
-      diagnostics_.error({table_.file, table_.header_line, 1},
-                         "no rows, expected at least one row of numbers");
-    return std::move(table_);
-  }
-
- private:
-  void take_row() {
-    std::vector<double> row(table_.columns.size());
-    for (std::size_t i = 0; i < row.size(); ++i)
-      row[i] = source_.number(i, rules_.empty_cells && !(i == 0 && rules_.increasing_first));
-    if (rules_.increasing_first && !table_.rows.empty() && row[0] <= table_.rows.back()[0])
-      diagnostics_.repeated_error("increase", source_.at(0),
-                                  table_.columns[0] + " " + format_number(row[0]) +
-                                      " does not increase, expected more than " +
-                                      format_number(table_.rows.back()[0]));
-    table_.rows.push_back(std::move(row));
-    table_.lines.push_back(source_.line());
-  }
-
-  TableText source_;
-  CsvTable table_;
-  CsvRules rules_;
-  Diagnostics& diagnostics_;
-};
+void take_row(TableText& source, const CsvRules& rules, CsvTable& table, Diagnostics& diagnostics) {
+  std::vector<double> row(table.columns.size());
+  for (std::size_t i = 0; i < row.size(); ++i)
+    row[i] = source.number(i, rules.empty_cells && !(i == 0 && rules.increasing_first));
+  if (rules.increasing_first && !table.rows.empty() && row[0] <= table.rows.back()[0])
+    diagnostics.repeated_error("increase", source.at(0),
+                               table.columns[0] + " " + format_number(row[0]) +
+                                   " does not increase, expected more than " +
+                                   format_number(table.rows.back()[0]));
+  table.rows.push_back(std::move(row));
+  table.lines.push_back(source.line());
+}
 
 }  // namespace
 
@@ -77,55 +47,20 @@ ColumnMatch match_column(const std::string& heading, const std::string& name) {
   return {};
 }
 
-bool to_si(CsvTable& table, int column, const std::string& name, Quantity quantity,
-           Diagnostics& diagnostics) {
-  const std::string said = match_column(table.columns[column], name).unit;
-  const std::string& row = table.units[column];
-  const auto refuse = [&](const std::string& what) {
-    diagnostics.error(cell_position(table, table.header_line, column),
-                      "column " + in_quotes(table.columns[column]) + " " + what);
-    return false;
-  };
-  const std::string& text = said.empty() ? row : said;
-  if (text.empty()) return true;
-  const std::optional<Unit> unit = unit_of(text);
-  if (!unit || (unit->quantity != quantity && unit->quantity != Quantity::none))
-    return refuse("is in " + in_quotes(text) + ", expected " + units_of(quantity));
-  const std::optional<Unit> other = row.empty() ? unit : unit_of(row);
-  if (!other || other->factor != unit->factor || other->quantity != unit->quantity)
-    return refuse("has " + in_quotes(row) + " below it, expected one unit");
-  if (unit->factor != 1.0)
-    for (std::vector<double>& values : table.rows) values[column] *= unit->factor;
-  return true;
-}
-
-SourcePosition cell_position(const CsvTable& table, int line, int column) {
-  try {
-    const std::string text = read_text_file(table.file);
-    RecordScanner scanner(text);
-    while (scanner.next() && scanner.line() < line) {
-    }
-    CellSplitter splitter(table.separator);
-    const auto& cells = splitter.split(scanner.record());
-    Diagnostics unused;
-    const TableText source(text, table.file, unused);
-    const int cell = column + (line == table.header_line ? source.cells_before_header()
-                                                         : source.cells_before_rows());
-    const bool known =
-        scanner.line() == line && column >= 0 && static_cast<std::size_t>(cell) < cells.size();
-    return {table.file, line, known ? cells[cell].column : 1};
-  } catch (const InvalidFile&) {
-    return {table.file, line, 1};
-  }
-}
-
 CsvTable read_csv(const std::filesystem::path& path, const CsvRules& rules,
                   Diagnostics& diagnostics) {
   const int before = diagnostics.error_count();
   CsvTable table;
   try {
     const std::string text = read_text_file(path);
-    table = Reader(text, path.string(), rules, diagnostics).read();
+    TableText source(text, path.string(), diagnostics);
+    table.file = source.file();
+    table.header_line = source.header_line();
+    for (const TableColumn& column : source.columns()) table.columns.push_back(column.name);
+    while (source.next()) take_row(source, rules, table, diagnostics);
+    if (table.rows.empty() && diagnostics.error_count() == before)
+      diagnostics.error({table.file, table.header_line, 1},
+                        "no rows, expected at least one row of numbers");
   } catch (const InvalidFile& fault) {
     diagnostics.add(fault);
   }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/core/diagnostics.h"
-#include "engine/io/unit_text.h"
 
 namespace pedicel::io {
 
@@ -15,11 +14,9 @@ namespace pedicel::io {
 struct CsvTable {
   std::string file;
   std::vector<std::string> columns;       ///< names as written, with the unit where it has one
-  std::vector<std::string> units;         ///< of a row of units; empty where there is none
   std::vector<std::vector<double>> rows;  ///< row major; NaN where a cell is empty
   std::vector<int> lines;                 ///< line number of each row in the file
   int header_line = 0;                    ///< line number of the column names
-  char separator = ',';                   ///< of the cells in the file
 
   /// Index of a column, -1 where absent.
   int column(const std::string& name) const;
@@ -32,16 +29,6 @@ struct ColumnMatch {
   std::string unit;  ///< empty where none is said
 };
 ColumnMatch match_column(const std::string& heading, const std::string& name);
-
-/// Turns a column into SI units, from the unit in its name or in a row of units; a column without
-/// one is in SI units already. False, with an error, where the unit is unknown, is one of something
-/// else than `quantity`, or where both units differ.
-bool to_si(CsvTable& table, int column, const std::string& name, Quantity quantity,
-           Diagnostics& diagnostics);
-
-/// Where a cell stands: `line` as in `lines` or `header_line`, `column` its index. The file is read
-/// again for it, so it is for errors only.
-SourcePosition cell_position(const CsvTable& table, int line, int column);
 
 /// What read_csv() accepts beyond plain finite numbers.
 struct CsvRules {

@@ -166,7 +166,6 @@ void TableText::find_row_numbers() {
     ++rows;
   }
   if (rows == 0) return;
-  names_are_fewer_ = before;
   row_numbers_ = before || (unnamed && (count || empty));
   if (!row_numbers_ || before) return;
   if (count)

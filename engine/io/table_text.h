@@ -59,9 +59,6 @@ class TableText {
   const std::string& file() const { return file_; }
   const std::vector<TableColumn>& columns() const { return columns_; }
   int header_line() const { return header_line_; }
-  /// Cells of the header's line and of the rows before those of the first column.
-  int cells_before_header() const { return row_numbers_ && !names_are_fewer_ ? 1 : 0; }
-  int cells_before_rows() const { return row_numbers_ ? 1 : 0; }
   const TableDialect& dialect() const { return dialect_; }
   /// The unit that a comment line above the header states for the whole table ("# unit: cm").
   const StatedUnit& stated_unit() const { return stated_unit_; }
@@ -104,7 +101,6 @@ class TableText {
   const std::vector<TableCell>* cells_ = nullptr;
   std::vector<TableCell> own_cells_;  ///< of a record without its number
   bool row_numbers_ = false;          ///< rows begin with a number of their own
-  bool names_are_fewer_ = false;      ///< which the header has no cell for
   std::size_t rows_ = 0;
   int header_line_ = 0, line_ = 0;
   bool good_ = false;

@@ -1,8 +1,8 @@
 #include "engine/io/unit_text.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
+#include <vector>
 
 #include "engine/io/csv.h"
 #include "engine/io/number_text.h"
@@ -11,9 +11,10 @@ namespace pedicel::io {
 
 namespace {
 
+/// A unit and the ways in which people write it.
 struct Known {
-  std::string_view text;
   Unit unit;
+  std::vector<std::string_view> texts;
 };
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
@@ -24,90 +25,47 @@ constexpr double inch = 0.0254;       ///< m
 constexpr auto t = Quantity::time, l = Quantity::length, an = Quantity::angle, f = Quantity::force,
                m = Quantity::moment, k = Quantity::mass;
 
-// Capitals tell these apart.
-constexpr std::array exact = {Known{"mN", {f, 1.0e-3}},   Known{"MN", {f, 1.0e6}},
-                              Known{"mNm", {m, 1.0e-3}},  Known{"mN.m", {m, 1.0e-3}},
-                              Known{"mN m", {m, 1.0e-3}}, Known{"mN*m", {m, 1.0e-3}},
-                              Known{"Ms", {t, 1.0e6}},    Known{"Mg", {k, 1.0e3}}};
+const std::vector<Known>& told_by_capitals() {
+  static const std::vector<Known> units = {
+      {{f, 1.0e-3}, {"mN"}}, {{f, 1.0e6}, {"MN"}}, {{m, 1.0e-3}, {"mNm", "mN.m", "mN m", "mN*m"}},
+      {{t, 1.0e6}, {"Ms"}},  {{k, 1.0e3}, {"Mg"}},
+  };
+  return units;
+}
 
-constexpr std::array any_case = {Known{"s", {t, 1.0}},
-                                 Known{"sec", {t, 1.0}},
-                                 Known{"secs", {t, 1.0}},
-                                 Known{"second", {t, 1.0}},
-                                 Known{"seconds", {t, 1.0}},
-                                 Known{"ms", {t, 1.0e-3}},
-                                 Known{"msec", {t, 1.0e-3}},
-                                 Known{"millisecond", {t, 1.0e-3}},
-                                 Known{"milliseconds", {t, 1.0e-3}},
-                                 Known{"us", {t, 1.0e-6}},
-                                 Known{"\xC2\xB5s", {t, 1.0e-6}},
-                                 Known{"\xCE\xBCs", {t, 1.0e-6}},
-                                 Known{"\xB5s", {t, 1.0e-6}},
-                                 Known{"usec", {t, 1.0e-6}},
-                                 Known{"microseconds", {t, 1.0e-6}},
-                                 Known{"ns", {t, 1.0e-9}},
-                                 Known{"nanoseconds", {t, 1.0e-9}},
-                                 Known{"min", {t, 60.0}},
-                                 Known{"minutes", {t, 60.0}},
-                                 Known{"m", {l, 1.0}},
-                                 Known{"metre", {l, 1.0}},
-                                 Known{"metres", {l, 1.0}},
-                                 Known{"meter", {l, 1.0}},
-                                 Known{"meters", {l, 1.0}},
-                                 Known{"dm", {l, 0.1}},
-                                 Known{"cm", {l, 0.01}},
-                                 Known{"centimetre", {l, 0.01}},
-                                 Known{"centimetres", {l, 0.01}},
-                                 Known{"centimeter", {l, 0.01}},
-                                 Known{"centimeters", {l, 0.01}},
-                                 Known{"mm", {l, 1.0e-3}},
-                                 Known{"millimetre", {l, 1.0e-3}},
-                                 Known{"millimetres", {l, 1.0e-3}},
-                                 Known{"millimeter", {l, 1.0e-3}},
-                                 Known{"millimeters", {l, 1.0e-3}},
-                                 Known{"um", {l, 1.0e-6}},
-                                 Known{"\xC2\xB5m", {l, 1.0e-6}},
-                                 Known{"\xCE\xBCm", {l, 1.0e-6}},
-                                 Known{"\xB5m", {l, 1.0e-6}},
-                                 Known{"km", {l, 1.0e3}},
-                                 Known{"in", {l, inch}},
-                                 Known{"inch", {l, inch}},
-                                 Known{"inches", {l, inch}},
-                                 Known{"ft", {l, 12.0 * inch}},
-                                 Known{"feet", {l, 12.0 * inch}},
-                                 Known{"rad", {an, 1.0}},
-                                 Known{"radian", {an, 1.0}},
-                                 Known{"radians", {an, 1.0}},
-                                 Known{"mrad", {an, 1.0e-3}},
-                                 Known{"deg", {an, degree}},
-                                 Known{"degree", {an, degree}},
-                                 Known{"degrees", {an, degree}},
-                                 Known{"\xC2\xB0", {an, degree}},
-                                 Known{"\xB0", {an, degree}},
-                                 Known{"n", {f, 1.0}},
-                                 Known{"newton", {f, 1.0}},
-                                 Known{"newtons", {f, 1.0}},
-                                 Known{"kn", {f, 1.0e3}},
-                                 Known{"gf", {f, 1.0e-3 * gravity}},
-                                 Known{"kgf", {f, gravity}},
-                                 Known{"lbf", {f, pound* gravity}},
-                                 Known{"nm", {m, 1.0}},
-                                 Known{"n m", {m, 1.0}},
-                                 Known{"n.m", {m, 1.0}},
-                                 Known{"n*m", {m, 1.0}},
-                                 Known{"n\xC2\xB7m", {m, 1.0}},
-                                 Known{"n-m", {m, 1.0}},
-                                 Known{"nmm", {m, 1.0e-3}},
-                                 Known{"n.mm", {m, 1.0e-3}},
-                                 Known{"n mm", {m, 1.0e-3}},
-                                 Known{"ncm", {m, 1.0e-2}},
-                                 Known{"n cm", {m, 1.0e-2}},
-                                 Known{"kg", {k, 1.0}},
-                                 Known{"g", {k, 1.0e-3}},
-                                 Known{"px", {Quantity::pixel, 1.0}},
-                                 Known{"pixel", {Quantity::pixel, 1.0}},
-                                 Known{"pixels", {Quantity::pixel, 1.0}},
-                                 Known{"1", {Quantity::none, 1.0}}};
+const std::vector<Known>& in_any_case() {
+  static const std::vector<Known> units = {
+      {{t, 1.0}, {"s", "sec", "secs", "second", "seconds"}},
+      {{t, 1.0e-3}, {"ms", "msec", "millisecond", "milliseconds"}},
+      {{t, 1.0e-6}, {"us", "\xC2\xB5s", "\xCE\xBCs", "\xB5s", "usec", "microseconds"}},
+      {{t, 1.0e-9}, {"ns", "nanoseconds"}},
+      {{t, 60.0}, {"min", "minutes"}},
+      {{l, 1.0}, {"m", "metre", "metres", "meter", "meters"}},
+      {{l, 0.1}, {"dm"}},
+      {{l, 0.01}, {"cm", "centimetre", "centimetres", "centimeter", "centimeters"}},
+      {{l, 1.0e-3}, {"mm", "millimetre", "millimetres", "millimeter", "millimeters"}},
+      {{l, 1.0e-6}, {"um", "\xC2\xB5m", "\xCE\xBCm", "\xB5m"}},
+      {{l, 1.0e3}, {"km"}},
+      {{l, inch}, {"in", "inch", "inches"}},
+      {{l, 12.0 * inch}, {"ft", "feet"}},
+      {{an, 1.0}, {"rad", "radian", "radians"}},
+      {{an, 1.0e-3}, {"mrad"}},
+      {{an, degree}, {"deg", "degree", "degrees", "\xC2\xB0", "\xB0"}},
+      {{f, 1.0}, {"n", "newton", "newtons"}},
+      {{f, 1.0e3}, {"kn"}},
+      {{f, 1.0e-3 * gravity}, {"gf"}},
+      {{f, gravity}, {"kgf"}},
+      {{f, pound * gravity}, {"lbf"}},
+      {{m, 1.0}, {"nm", "n m", "n.m", "n*m", "n\xC2\xB7m", "n-m"}},
+      {{m, 1.0e-3}, {"nmm", "n.mm", "n mm"}},
+      {{m, 1.0e-2}, {"ncm", "n cm"}},
+      {{k, 1.0}, {"kg"}},
+      {{k, 1.0e-3}, {"g"}},
+      {{Quantity::pixel, 1.0}, {"px", "pixel", "pixels"}},
+      {{Quantity::none, 1.0}, {"1"}},
+  };
+  return units;
+}
 
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -152,10 +110,11 @@ std::string_view within_brackets(std::string_view text) {
 std::optional<Unit> unit_of(std::string_view text) {
   text = trimmed(text);
   if (const std::string_view within = within_brackets(text); !within.empty()) text = within;
-  for (const Known& known : exact)
-    if (known.text == text) return known.unit;
-  for (const Known& known : any_case)
-    if (same_but_case(known.text, text)) return known.unit;
+  for (const Known& known : told_by_capitals())
+    if (std::ranges::find(known.texts, text) != known.texts.end()) return known.unit;
+  for (const Known& known : in_any_case())
+    for (const std::string_view one : known.texts)
+      if (same_but_case(one, text)) return known.unit;
   return std::nullopt;
 }
 

@@ -1,7 +1,8 @@
-#include <algorithm>
+#include <cmath>
 
 #include "engine/io/csv.h"
 #include "engine/io/csv_cell.h"
+#include "engine/io/table_spec.h"
 #include "engine/robot/joint_range.h"
 #include "engine/robot/trajectory.h"
 
@@ -9,63 +10,29 @@ namespace pedicel::robot {
 
 namespace {
 
-std::string expected_names(const KinematicModel& model) {
-  std::string names;
-  for (const std::string& name : model.joint_names()) names += (names.empty() ? "" : ", ") + name;
-  return "expected one of " + names;
-}
-
-/// The joint that a column is about: by its name, else by its name with a unit behind it.
-std::string joint_of(const std::string& heading, const RobotDescription& robot) {
-  if (robot.joint(heading) >= 0) return heading;
+/// All joints, with those that follow others, which a table may not have.
+io::TableSpec spec_of(const RobotDescription& robot, const KinematicModel& model) {
+  io::TableSpec spec{.expected = "time_s and joints:",
+                     .needed = io::NeededColumns::none,
+                     .gaps = false,
+                     .time = {.needs_unit = true, .from_zero = false}};
+  for (const std::string& name : model.joint_names()) spec.expected += " " + name;
   for (const Joint& joint : robot.joints)
-    if (io::match_column(heading, joint.name).matches) return joint.name;
-  return heading;
+    if (joint.mimic || model.joint_index(joint.name) >= 0)
+      spec.columns.push_back({joint.name, joint.type == JointType::prismatic
+                                              ? io::Quantity::length
+                                              : io::Quantity::angle});
+  return spec;
 }
 
-/// For each column after the first its joint, everything in s and rad or m; faults are reported.
-std::vector<int> match_columns(io::CsvTable& table, const RobotDescription& robot,
-                               const KinematicModel& model, Diagnostics& diagnostics) {
-  const auto error = [&](std::size_t column, const std::string& what) {
-    diagnostics.error(io::cell_position(table, table.header_line, static_cast<int>(column)), what);
-  };
-  const io::ColumnMatch time = io::match_column(table.columns[0], "time");
-  if (!time.matches || (time.unit.empty() && table.units[0].empty()))
-    error(0, "first column '" + table.columns[0] + "', expected time_s");
-  else
-    io::to_si(table, 0, "time", io::Quantity::time, diagnostics);
-  std::vector<int> joints;
-  for (std::size_t c = 1; c < table.columns.size(); ++c) {
-    const std::string name = joint_of(table.columns[c], robot);
-    const int index = robot.joint(name);
-    const bool follows = index >= 0 && robot.joints[index].mimic.has_value();
-    const int joint = model.joint_index(name);
-    if (joint >= 0 && std::find(joints.begin(), joints.end(), joint) != joints.end())
-      error(c, "column '" + table.columns[c] + "' twice, expected it once");
-    else if (follows)
-      error(c, "joint '" + name + "' follows '" +
-                   robot.joints[robot.joints[index].mimic->source].name +
-                   "', expected that one alone");
-    else if (joint < 0)
-      error(c, "unknown joint '" + name + "', " + expected_names(model));
-    else
-      io::to_si(table, static_cast<int>(c), name,
-                robot.joints[index].type == JointType::prismatic ? io::Quantity::length
-                                                                 : io::Quantity::angle,
-                diagnostics);
-    joints.push_back(joint);
+void check_followers(const RobotDescription& robot, const io::TableSpec& spec,
+                     io::SpecTable& table) {
+  for (std::size_t c = 0; c < spec.columns.size(); ++c) {
+    const auto& mimic = robot.joints[robot.joint(spec.columns[c].name)].mimic;
+    if (mimic && table.has(c))
+      table.name_error(c, "joint '" + spec.columns[c].name + "' follows '" +
+                              robot.joints[mimic->source].name + "', expected that one alone");
   }
-  return joints;
-}
-
-/// Each joint that leaves its limits, once.
-void check_limits(const io::CsvTable& table, const std::vector<int>& joints,
-                  const KinematicModel& model, Diagnostics& diagnostics) {
-  for (std::size_t r = 0; r < table.rows.size(); ++r)
-    for (std::size_t c = 0; c < joints.size(); ++c)
-      if (const auto outside = outside_range(model, joints[c], table.rows[r][c + 1]))
-        diagnostics.repeated_error("limit of " + table.columns[c + 1],
-                                   {table.file, table.lines[r], 1}, *outside);
 }
 
 }  // namespace
@@ -73,21 +40,25 @@ void check_limits(const io::CsvTable& table, const std::vector<int>& joints,
 Trajectory read_trajectory_csv(const std::filesystem::path& path, const RobotDescription& robot,
                                const KinematicModel& model, const Eigen::VectorXd& q_start,
                                Diagnostics& diagnostics) {
-  const int before = diagnostics.error_count();
-  io::CsvTable table = io::read_csv(path, {}, diagnostics);
-  if (diagnostics.error_count() > before) return {};
-  const std::vector<int> joints = match_columns(table, robot, model, diagnostics);
-  if (diagnostics.error_count() > before) return {};
-  check_limits(table, joints, model, diagnostics);
-  if (diagnostics.error_count() > before) return {};
-
+  const io::TableSpec spec = spec_of(robot, model);
+  io::SpecTable table(path, spec, diagnostics);
+  check_followers(robot, spec, table);
   std::vector<double> times;
   std::vector<Eigen::VectorXd> positions;
-  for (const std::vector<double>& row : table.rows) {
-    times.push_back(row[0]);
+  if (!table.good()) return {};
+  while (table.next()) {
+    times.push_back(table.time());
     positions.push_back(q_start);
-    for (std::size_t c = 0; c < joints.size(); ++c) positions.back()[joints[c]] = row[c + 1];
+    for (std::size_t c = 0; c < spec.columns.size(); ++c) {
+      if (!table.has(c)) continue;
+      const int joint = model.joint_index(spec.columns[c].name);
+      positions.back()[joint] = table.value(c);
+      if (std::isnan(table.value(c))) continue;  // told already
+      if (const auto outside = outside_range(model, joint, table.value(c)))
+        table.row_error("limit of " + spec.columns[c].name, c, *outside);
+    }
   }
+  if (!table.good()) return {};
   return Trajectory(std::move(times), std::move(positions));
 }
 

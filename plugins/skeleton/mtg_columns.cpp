@@ -10,13 +10,9 @@ namespace {
 
 class MtgHeader {
  public:
-  MtgHeader(const std::vector<TextCell>& cells, double asked, double stated, SourcePosition line,
+  MtgHeader(const std::vector<TextCell>& cells, const StatedLengthUnit& unit, SourcePosition line,
             Diagnostics& diagnostics)
-      : cells_(cells),
-        asked_(asked),
-        stated_(stated),
-        line_(std::move(line)),
-        diagnostics_(diagnostics) {}
+      : cells_(cells), unit_(unit), line_(std::move(line)), diagnostics_(diagnostics) {}
 
   MtgColumns find() {
     const int before = diagnostics_.error_count();
@@ -86,17 +82,9 @@ class MtgHeader {
   }
 
   // In the column's own unit where its name has one: "XX (cm)".
-  double unit(const TextCell& cell) {
-    const std::string text = io::split_unit(cell.text).unit;
-    if (text.empty()) return stated_ > 0.0 ? stated_ : 0.001;
-    const auto unit = io::unit_of(text);
-    if (!unit || unit->quantity != io::Quantity::length)
-      error(cell, "column " + in_quotes(cell.text) + " is in " + in_quotes(text) + ", expected " +
-                      io::units_of(io::Quantity::length));
-    else if (asked_ > 0.0 && asked_ != unit->factor)
-      error(cell, "column " + in_quotes(cell.text) + " is in " + text + ", and " +
-                      io::length_unit_name(asked_) + " was asked for: expected one of them");
-    return unit ? unit->factor : 1.0;
+  double unit(const TextCell& cell) const {
+    return unit_.of_column(std::string(cell.text), io::split_unit(cell.text).unit,
+                           {line_.file, line_.line, cell.column});
   }
 
   void find_diameter() {
@@ -117,7 +105,7 @@ class MtgHeader {
   }
 
   const std::vector<TextCell>& cells_;
-  double asked_, stated_;  ///< m
+  const StatedLengthUnit& unit_;
   SourcePosition line_;
   Diagnostics& diagnostics_;
   int first_ = 0;  ///< column that has a name
@@ -126,9 +114,9 @@ class MtgHeader {
 
 }  // namespace
 
-MtgColumns find_mtg_columns(const std::vector<TextCell>& cells, double asked, double stated,
+MtgColumns find_mtg_columns(const std::vector<TextCell>& cells, const StatedLengthUnit& unit,
                             const SourcePosition& line, Diagnostics& diagnostics) {
-  return MtgHeader(cells, asked, stated, line, diagnostics).find();
+  return MtgHeader(cells, unit, line, diagnostics).find();
 }
 
 std::optional<Vec3> place_in_one(std::string_view text, const io::NumberStyle& style) {

@@ -8,6 +8,7 @@
 #include "engine/core/diagnostics.h"
 #include "engine/core/frames.h"
 #include "engine/io/number_text.h"
+#include "plugins/skeleton/stated_unit.h"
 #include "plugins/skeleton/text_cells.h"
 
 namespace pedicel::plant {
@@ -26,10 +27,9 @@ struct MtgColumns {
   bool in_one() const { return place[0] >= 0 && place[0] == place[1]; }
 };
 
-/// From the line that begins with ENTITY-CODE (or TOPO, in AMAPmod's older files). `asked` (m): the
-/// unit that the caller says, 0: none; `stated`: the one that holds where a column has none of its
-/// own. What is missing or contradicts goes to the diagnostics, and then `codes` is 0.
-MtgColumns find_mtg_columns(const std::vector<TextCell>& cells, double asked, double stated,
+/// From the line that begins with ENTITY-CODE (or TOPO, in AMAPmod's older files). What is missing
+/// or contradicts goes to the diagnostics, and then `codes` is 0.
+MtgColumns find_mtg_columns(const std::vector<TextCell>& cells, const StatedLengthUnit& unit,
                             const SourcePosition& line, Diagnostics& diagnostics);
 
 /// The numbers of "Vector3(0.1,0.2,0.3)", "(0.1, 0.2, 0.3)" or "[0.1 0.2 0.3]"; nothing where there

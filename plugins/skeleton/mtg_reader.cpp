@@ -38,6 +38,7 @@ bool is_code(std::string_view code) {
 }
 
 constexpr std::size_t most_nodes = 1000000;
+constexpr double usual_unit = 0.001;  // m
 
 // "UNIT: cm" above the section MTG, or the same in a comment.
 std::string stated_unit(std::string_view line) {
@@ -47,7 +48,9 @@ std::string stated_unit(std::string_view line) {
 class MtgParser {
  public:
   MtgParser(std::string file, Diagnostics& diagnostics, double unit)
-      : file_(std::move(file)), diagnostics_(diagnostics), asked_(unit), unit_(unit) {}
+      : file_(std::move(file)),
+        diagnostics_(diagnostics),
+        unit_(unit, file_, diagnostics, usual_unit) {}
 
   std::vector<SkeletonNode> parse(std::string_view text) {
     const int before = diagnostics_.error_count();
@@ -57,7 +60,7 @@ class MtgParser {
       ++line_;
       const std::size_t first = line.find_first_not_of(" \t");
       if (first == std::string_view::npos) continue;
-      if (columns_.codes == 0) take_unit(line.substr(first));
+      if (columns_.codes == 0) unit_.take(stated_unit(line.substr(first)), line_);
       if (line[first] == '#') continue;
       const std::vector<TextCell> cells = split_cells(line, '\t');
       if (!in_mtg) {
@@ -105,21 +108,8 @@ class MtgParser {
       error(1, "no entity has coordinates, expected places");
   }
 
-  void take_unit(std::string_view line) {
-    const std::string text = stated_unit(line);
-    if (text.empty()) return;
-    const std::optional<double> unit = io::length_unit(text);
-    if (!unit)
-      error(1, "unit is " + in_quotes(text) + ", expected " + io::expected_length_units());
-    else if (asked_ > 0.0 && asked_ != *unit)
-      error(1, "the file says that it is in " + io::length_unit_name(*unit) + ", and " +
-                   io::length_unit_name(asked_) + " was asked for: expected one of them");
-    else
-      unit_ = *unit;
-  }
-
   void take_header(const std::vector<TextCell>& cells, std::string_view rest) {
-    columns_ = find_mtg_columns(cells, asked_, unit_, {file_, line_, 1}, diagnostics_);
+    columns_ = find_mtg_columns(cells, unit_, {file_, line_, 1}, diagnostics_);
     refused_header_ = columns_.codes == 0;
     // Where places stand in one column, commas part their numbers.
     if (!refused_header_ && !columns_.in_one()) find_decimal(rest);
@@ -279,13 +269,6 @@ class MtgParser {
     first.branch = false;
   }
 
-  // Divided where the unit is a part of a metre, so that whole millimetres come to the same bits
-  // as in a table in metres.
-  static double in_metres(double value, double scale) {
-    const double parts = std::round(1.0 / scale);
-    return scale < 1.0 && std::abs(parts * scale - 1.0) < 1.0e-12 ? value / parts : value * scale;
-  }
-
   std::optional<double> number(const std::vector<TextCell>& cells, int column) {
     if (column < 0 || column >= static_cast<int>(cells.size())) return std::nullopt;
     const TextCell& cell = cells[column];
@@ -301,8 +284,7 @@ class MtgParser {
 
   std::string file_;
   Diagnostics& diagnostics_;
-  double asked_,
-      unit_;  ///< m, of the file's lengths: by the caller, and by whoever says it; 0: none
+  StatedLengthUnit unit_;
   int line_ = 0;
   bool refused_header_ = false;
   MtgColumns columns_;
@@ -317,18 +299,6 @@ class MtgParser {
 std::vector<SkeletonNode> parse_mtg(const std::string& text, const std::string& file,
                                     Diagnostics& diagnostics, double unit) {
   return MtgParser(file, diagnostics, unit).parse(io::without_mark(text));
-}
-
-std::optional<PlantFile> read_mtg(const std::filesystem::path& path, const MtgOptions& options,
-                                  Diagnostics& diagnostics) {
-  try {
-    const auto nodes =
-        parse_mtg(io::read_text_file(path), path.string(), diagnostics, options.unit);
-    return checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);
-  } catch (const InvalidFile& fault) {
-    diagnostics.add(fault);
-    return std::nullopt;
-  }
 }
 
 }  // namespace pedicel::plant

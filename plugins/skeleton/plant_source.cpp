@@ -37,7 +37,6 @@ std::vector<SkeletonNode> parse_nodes(const std::filesystem::path& path, SourceK
 std::optional<PlantFile> read_nodes(const std::filesystem::path& path, SourceKind kind, double unit,
                                     Diagnostics& diagnostics) {
   MtgOptions options;
-  options.unit = unit;
   options.keeps_thin = kind != SourceKind::mtg;  // a fruit's stalk
   const std::vector<SkeletonNode> nodes = parse_nodes(path, kind, unit, diagnostics);
   auto plant = checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);

@@ -20,7 +20,6 @@ struct MtgOptions {
   double distance = 0.06;            ///< m
   double smallest_diameter = 0.004;  ///< m; thinner and unmeasured wood gets this
   bool keeps_thin = false;           ///< only unmeasured wood gets that
-  double unit = 0.0;  ///< m, of the file's lengths; 0: as the file says, else mm (MTG) or m (table)
 };
 
 /// A digitised place of a plant.

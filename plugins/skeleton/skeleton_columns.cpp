@@ -4,8 +4,8 @@
 #include <cctype>
 #include <optional>
 
-#include "engine/io/csv.h"
 #include "engine/io/unit_text.h"
+#include "plugins/skeleton/stated_unit.h"
 
 namespace pedicel::plant {
 
@@ -13,66 +13,38 @@ namespace {
 
 constexpr auto roles = static_cast<std::size_t>(ColumnRole::count);
 
-struct Name {
-  std::string_view text;  ///< without capitals, blanks and separators
+struct Names {
   ColumnRole role;
+  std::vector<std::string_view> texts;  ///< without capitals, blanks and separators
 };
 
-constexpr std::array names = {
-    Name{"vid", ColumnRole::id},
-    Name{"id", ColumnRole::id},
-    Name{"nodeid", ColumnRole::id},
-    Name{"node", ColumnRole::id},
-    Name{"cylid", ColumnRole::id},
-    Name{"cylinderid", ColumnRole::id},
-    Name{"parentid", ColumnRole::parent},
-    Name{"parent", ColumnRole::parent},
-    Name{"parentnode", ColumnRole::parent},
-    Name{"parentcylinder", ColumnRole::parent},
-    Name{"x", ColumnRole::x},
-    Name{"y", ColumnRole::y},
-    Name{"z", ColumnRole::z},
-    Name{"xskeleton", ColumnRole::x},
-    Name{"yskeleton", ColumnRole::y},
-    Name{"zskeleton", ColumnRole::z},
-    Name{"xx", ColumnRole::x},
-    Name{"yy", ColumnRole::y},
-    Name{"zz", ColumnRole::z},
-    Name{"edgetype", ColumnRole::edge},
-    Name{"edge", ColumnRole::edge},
-    Name{"isbranch", ColumnRole::edge},
-    Name{"link", ColumnRole::edge},
-    Name{"diameter", ColumnRole::diameter},
-    Name{"diam", ColumnRole::diameter},
-    Name{"radius", ColumnRole::radius},
-    Name{"radiuscyl", ColumnRole::radius},
-    Name{"mtgcode", ColumnRole::code},
-    Name{"startx", ColumnRole::start_x},
-    Name{"starty", ColumnRole::start_y},
-    Name{"startz", ColumnRole::start_z},
-    Name{"startpointx", ColumnRole::start_x},
-    Name{"startpointy", ColumnRole::start_y},
-    Name{"startpointz", ColumnRole::start_z},
-    Name{"endx", ColumnRole::end_x},
-    Name{"endy", ColumnRole::end_y},
-    Name{"endz", ColumnRole::end_z},
-    Name{"endpointx", ColumnRole::end_x},
-    Name{"endpointy", ColumnRole::end_y},
-    Name{"endpointz", ColumnRole::end_z},
-    Name{"axisx", ColumnRole::axis_x},
-    Name{"axisy", ColumnRole::axis_y},
-    Name{"axisz", ColumnRole::axis_z},
-    Name{"axisdirectionx", ColumnRole::axis_x},
-    Name{"axisdirectiony", ColumnRole::axis_y},
-    Name{"axisdirectionz", ColumnRole::axis_z},
-    Name{"length", ColumnRole::length},
-    Name{"branch", ColumnRole::branch},
-    Name{"branchid", ColumnRole::branch},
-    Name{"branchorder", ColumnRole::order},
-    Name{"branchingorder", ColumnRole::order},
-    Name{"extension", ColumnRole::extension},
-    Name{"extensionid", ColumnRole::extension},
-};
+const std::vector<Names>& known_names() {
+  static const std::vector<Names> names = {
+      {ColumnRole::id, {"vid", "id", "nodeid", "node", "cylid", "cylinderid"}},
+      {ColumnRole::parent, {"parentid", "parent", "parentnode", "parentcylinder"}},
+      {ColumnRole::x, {"x", "xskeleton", "xx"}},
+      {ColumnRole::y, {"y", "yskeleton", "yy"}},
+      {ColumnRole::z, {"z", "zskeleton", "zz"}},
+      {ColumnRole::edge, {"edgetype", "edge", "isbranch", "link"}},
+      {ColumnRole::diameter, {"diameter", "diam"}},
+      {ColumnRole::radius, {"radius", "radiuscyl"}},
+      {ColumnRole::code, {"mtgcode"}},
+      {ColumnRole::start_x, {"startx", "startpointx"}},
+      {ColumnRole::start_y, {"starty", "startpointy"}},
+      {ColumnRole::start_z, {"startz", "startpointz"}},
+      {ColumnRole::end_x, {"endx", "endpointx"}},
+      {ColumnRole::end_y, {"endy", "endpointy"}},
+      {ColumnRole::end_z, {"endz", "endpointz"}},
+      {ColumnRole::axis_x, {"axisx", "axisdirectionx"}},
+      {ColumnRole::axis_y, {"axisy", "axisdirectiony"}},
+      {ColumnRole::axis_z, {"axisz", "axisdirectionz"}},
+      {ColumnRole::length, {"length"}},
+      {ColumnRole::branch, {"branch", "branchid"}},
+      {ColumnRole::order, {"branchorder", "branchingorder"}},
+      {ColumnRole::extension, {"extension", "extensionid"}},
+  };
+  return names;
+}
 
 bool is_length(ColumnRole role) {
   return (role >= ColumnRole::x && role <= ColumnRole::z) || role == ColumnRole::diameter ||
@@ -90,8 +62,8 @@ std::string bare(std::string_view text) {
 
 std::optional<ColumnRole> role_of(std::string_view name) {
   const std::string text = bare(name);
-  for (const Name& known : names)
-    if (known.text == text) return known.role;
+  for (const Names& known : known_names())
+    if (std::ranges::find(known.texts, text) != known.texts.end()) return known.role;
   return std::nullopt;
 }
 
@@ -116,14 +88,14 @@ Heading read_heading(const std::string& text) {
 class Finder {
  public:
   Finder(const io::TableText& table, double unit, Diagnostics& diagnostics)
-      : table_(table), asked_(unit), diagnostics_(diagnostics) {
+      : table_(table), unit_(unit, table.file(), diagnostics), diagnostics_(diagnostics) {
     columns_.at.fill(-1);
     columns_.unit.fill(1.0);
   }
 
   SkeletonColumns find() {
     const int before = diagnostics_.error_count();
-    read_stated_unit();
+    unit_.take(table_.stated_unit().text, table_.stated_unit().line);
     for (std::size_t c = 0; c < table_.columns().size(); ++c) take(static_cast<int>(c));
     const bool cylinders = columns_.has(ColumnRole::start_x) || columns_.has(ColumnRole::start_y) ||
                            columns_.has(ColumnRole::start_z);
@@ -148,23 +120,6 @@ class Finder {
   }
   int at(int column) const { return table_.columns()[column].column; }
 
-  void read_stated_unit() {
-    const io::StatedUnit& stated = table_.stated_unit();
-    whole_ = asked_ > 0.0 ? asked_ : 1.0;
-    if (stated.text.empty()) return;
-    const SourcePosition where{table_.file(), stated.line, 1};
-    const std::optional<double> unit = io::length_unit(stated.text);
-    if (!unit)
-      diagnostics_.error(
-          where, "unit is " + in_quotes(stated.text) + ", expected " + io::expected_length_units());
-    else if (asked_ > 0.0 && asked_ != *unit)
-      diagnostics_.error(where, "the file says that it is in " + io::length_unit_name(*unit) +
-                                    ", and " + io::length_unit_name(asked_) +
-                                    " was asked for: expected one of them");
-    else
-      whole_ = *unit;
-  }
-
   void take(int column) {
     const io::TableColumn& source = table_.columns()[column];
     const Heading heading = read_heading(source.name);
@@ -178,22 +133,8 @@ class Finder {
     place = column;
     if (!is_length(*heading.role)) return;
     columns_.unit[static_cast<std::size_t>(*heading.role)] =
-        unit_of(column, heading.unit.empty() ? source.unit : heading.unit);
-  }
-
-  double unit_of(int column, const std::string& text) {
-    if (text.empty()) return whole_;
-    const auto unit = io::unit_of(text);
-    if (!unit || unit->quantity != io::Quantity::length) {
-      error(column, "column " + in_quotes(table_.columns()[column].name) + " is in " +
-                        in_quotes(text) + ", expected " + io::units_of(io::Quantity::length));
-      return 1.0;
-    }
-    if (asked_ > 0.0 && asked_ != unit->factor)
-      error(column, "column " + in_quotes(table_.columns()[column].name) + " is in " + text +
-                        ", and " + io::length_unit_name(asked_) +
-                        " was asked for: expected one of them");
-    return unit->factor;
+        unit_.of_column(source.name, heading.unit.empty() ? source.unit : heading.unit,
+                        {table_.file(), table_.header_line(), source.column});
   }
 
   std::string missing(std::initializer_list<std::pair<ColumnRole, const char*>> needed) const {
@@ -259,7 +200,7 @@ class Finder {
   }
 
   const io::TableText& table_;
-  double asked_, whole_ = 1.0;
+  StatedLengthUnit unit_;
   Diagnostics& diagnostics_;
   SkeletonColumns columns_;
 };

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "engine/io/table_text.h"
-#include "engine/io/text_file.h"
 #include "engine/io/unit_text.h"
 #include "plugins/plant/point_grid.h"
 #include "plugins/skeleton/mtg_reader.h"
@@ -357,18 +356,6 @@ std::vector<SkeletonNode> parse_skeleton_csv(const std::string& text, const std:
                                              Diagnostics& diagnostics, double unit) {
   const std::string named = with_three_names(text);
   return TableParser(named.empty() ? text : named, file, unit, diagnostics).parse();
-}
-
-std::optional<PlantFile> read_skeleton_csv(const std::filesystem::path& path,
-                                           const MtgOptions& options, Diagnostics& diagnostics) {
-  try {
-    const auto nodes =
-        parse_skeleton_csv(io::read_text_file(path), path.string(), diagnostics, options.unit);
-    return checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);
-  } catch (const InvalidFile& fault) {
-    diagnostics.add(fault);
-    return std::nullopt;
-  }
 }
 
 }  // namespace pedicel::plant

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/io/atomic_file.h"
 #include "plugins/cosserat/solver/standing.h"
 #include "plugins/plant/plant_builder.h"
 #include "plugins/skeleton/mtg_reader.h"
@@ -176,12 +177,14 @@ std::optional<RodModel> plant_of_file(Random& random, const fs::path& path, cons
   std::optional<plant::PlantFile> file;
   plant::MtgOptions options;
   options.distance = 0.3;
-  if (path.extension() == ".mtg")
-    file = plant::read_mtg(path, options, diagnostics);
-  else if (path.extension() == ".csv")
-    file = plant::read_skeleton_csv(path, options, diagnostics);
-  else
+  if (path.extension() == ".yaml") {
     file = plant::read_plant_file(path, diagnostics);
+  } else {
+    const auto parse = path.extension() == ".mtg" ? plant::parse_mtg : plant::parse_skeleton_csv;
+    file =
+        plant::checked_skeleton_plant(parse(io::read_file(path), path.string(), diagnostics, 0.0),
+                                      path.stem().string(), options, diagnostics);
+  }
   if (!file) return std::nullopt;
   take_over(random, *file, one);
   return build(*file);

@@ -28,7 +28,7 @@ QUANTITY = re.compile(r"^\s+\{\"(\w+)\", \"", re.M)
 SCRIPT_QUANTITY = re.compile(r"if \(name == \"(\w+)\"\)")
 CHANNEL = re.compile(r"(?<=[\" ])((?:tool_[xyz]|energy|stretch|contacts|detached)_\w+)(?=[ \"])")
 FRUIT_CHANNEL = re.compile(r"(?<=[\" ])\*(_\w+)(?=[ \"])")
-TABLE_COLUMN = re.compile(r"Name\{\"(\w+)\", ColumnRole::")
+TABLE_COLUMN = re.compile(r"\"(\w+)\"(?=[^{}\n]*\}\},$)", re.M)
 COLUMN = re.compile(r"\"((?:time|stretch|bend|force|moment|torsion|angle|tool)_\w+|organ|cause)\"")
 
 

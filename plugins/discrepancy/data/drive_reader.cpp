@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/io/csv.h"
 #include "plugins/discrepancy/data/experiment_tables.h"
 #include "plugins/plant/effect_reader.h"
 

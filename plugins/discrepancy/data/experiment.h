@@ -64,9 +64,11 @@ struct Samples {
   int size() const { return static_cast<int>(time.size()); }
 };
 
+/// Something that happened: `what` is an organ or fruit, `by` the link that did it, in a scene.
 struct MeasuredEvent {
-  double time = 0.0;
-  std::string event, what;  ///< "detached", "fruit_1"
+  double time = 0.0;  ///< s
+  std::string event;  ///< grasped | released | detached | slipped
+  std::string what = {}, by = {};
 
   bool is_detachment() const { return event == "detached"; }
 };

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/io/csv.h"
 #include "plugins/discrepancy/data/drive_reader.h"
 #include "plugins/discrepancy/data/experiment_keys.h"
 #include "plugins/discrepancy/data/experiment_progress.h"
@@ -361,9 +362,21 @@ class Reader {
                              "a force was measured where nothing is held, expected a hold");
     }
     if (std::filesystem::exists(folder / "events.csv"))
-      trial.events = read_events(folder / "events.csv", experiment_.plant, diagnostics_);
+      trial.events = read_events(
+          folder / "events.csv", diagnostics_,
+          [&](const MeasuredEvent& event, io::SpecTable& table) { check_event(event, table); });
     if (!trial.wrench_file.empty())
       trial.wrench = read_wrench(folder / trial.wrench_file, diagnostics_, rows);
+  }
+
+  // What detached is a fruit of the plant.
+  void check_event(const MeasuredEvent& event, io::SpecTable& table) const {
+    const plant::PlantFile& plant = experiment_.plant;
+    const auto named = [&](const auto& fruit) { return fruit.name == event.what; };
+    if (event.is_detachment() && std::ranges::none_of(plant.fruits, named))
+      table.row_error("no fruit", what_column,
+                      "what: " + in_quotes(event.what) + " is no fruit of plant \"" + plant.name +
+                          "\", expected the name of one that detached");
   }
 
   const YamlNode& node_;

@@ -2,25 +2,29 @@
 
 #include <algorithm>
 
-#include "engine/io/atomic_file.h"
 #include "engine/io/csv.h"
 #include "engine/io/csv_cell.h"
-#include "engine/io/table_text.h"
-#include "engine/io/text_file.h"
-#include "plugins/discrepancy/data/sample_table.h"
 
 namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr double smallest_quaternion = 1.0e-6;
-constexpr const char* axes[] = {"x", "y", "z"};
+using io::NeededColumns;
+using io::Quantity;
 
-std::string row_text(const std::vector<double>& values) {
-  std::string text;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    text += (i > 0 ? "," : "") + io::exact_number(values[i]);
-  return text + "\n";
+constexpr double smallest_quaternion = 1.0e-6;
+
+std::vector<io::ColumnSpec> columns_of(const std::vector<std::string>& names, Quantity quantity) {
+  std::vector<io::ColumnSpec> columns;
+  for (const std::string& name : names) columns.push_back({name, quantity});
+  return columns;
+}
+
+Samples read_points(const std::filesystem::path& file, io::TableSpec spec, Rows rows,
+                    Diagnostics& diagnostics) {
+  spec.whole_points = true;
+  spec.time.there = rows == Rows::time;
+  return read_samples(file, spec, diagnostics);
 }
 
 // An axis without a sample of a point that has others was not measured.
@@ -35,168 +39,147 @@ std::vector<int> measured_columns(const Samples& samples) {
   return columns;
 }
 
-std::string samples_text(const Samples& samples, const std::vector<std::string>& names, Rows rows) {
-  const std::vector<int> columns = measured_columns(samples);
-  std::string text = rows == Rows::time ? "time" : "";
-  for (const int c : columns) text += (text.empty() ? "" : ",") + io::csv_cell(names[c]);
-  text += "\n";
-  for (int r = 0; r < samples.size(); ++r) {
-    std::vector<double> values;
-    if (rows == Rows::time) values.push_back(samples.time[r]);
-    for (const int c : columns) values.push_back(samples.value(r, c));
-    text += row_text(values);
-  }
-  return text;
-}
-
 }  // namespace
 
+Eigen::MatrixXd matrix_of_rows(const std::vector<double>& values, std::size_t columns) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  if (columns == 0) return {};
+  return Eigen::Map<const RowMajor>(values.data(), static_cast<long>(values.size() / columns),
+                                    static_cast<long>(columns));
+}
+
+Samples read_samples(const std::filesystem::path& file, const io::TableSpec& spec,
+                     Diagnostics& diagnostics, std::vector<int>* present) {
+  io::SpecTable table(file, spec, diagnostics);
+  std::vector<int> columns;
+  for (std::size_t c = 0; c < spec.columns.size(); ++c)
+    if (!present || table.has(c)) columns.push_back(static_cast<int>(c));
+  Samples samples;
+  std::vector<double> values;
+  while (table.next()) {
+    samples.time.push_back(table.time());
+    for (const int c : columns) values.push_back(table.value(static_cast<std::size_t>(c)));
+  }
+  if (!table.good()) return {};
+  samples.value = matrix_of_rows(values, columns.size());
+  if (present) *present = columns;
+  return samples;
+}
+
 DrivenPath read_path(const std::filesystem::path& file, Diagnostics& diagnostics, Rows rows) {
-  SampleTable source(file, false, rows, diagnostics);
-  if (!source.good()) return {};
-  const io::CsvTable& table = source.table();
-  const bool turns = source.columns() > 3;
-  std::vector<std::string> expected = {"x", "y", "z"};
-  if (turns) expected.insert(expected.end(), {"qx", "qy", "qz", "qw"});
-  const std::vector<int> at =
-      source.find(expected, io::Quantity::length, "time,x,y,z or time,x,y,z,qx,qy,qz,qw");
-  if (!source.good()) return {};
+  io::TableSpec spec{.columns = columns_of({"x", "y", "z"}, Quantity::length),
+                     .expected = "time,x,y,z or time,x,y,z,qx,qy,qz,qw",
+                     .needed_first = 3,
+                     .gaps = false};
+  for (const char* name : {"qx", "qy", "qz", "qw"}) spec.columns.push_back({name});
+  spec.time.there = rows == Rows::time;
+  io::SpecTable table(file, spec, diagnostics);
   DrivenPath path;
-  for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const std::vector<double>& row = table.rows[r];
-    path.time.push_back(source.time(r));
-    path.position.emplace_back(row[at[0]], row[at[1]], row[at[2]]);
-    if (!turns) continue;
-    const Quat q(row[at[6]], row[at[3]], row[at[4]], row[at[5]]);
+  while (table.next()) {
+    path.time.push_back(table.time());
+    path.position.emplace_back(table.value(0), table.value(1), table.value(2));
+    if (!table.has(3)) continue;
+    const Quat q(table.value(6), table.value(3), table.value(4), table.value(5));
     if (q.norm() < smallest_quaternion)
-      source.row_error("quaternion", r, at[3], "the quaternion has length 0, expected a rotation");
+      table.row_error("quaternion", 3, "the quaternion has length 0, expected a rotation");
     path.rotation.push_back(q.normalized());
   }
-  return source.good() ? path : DrivenPath{};
+  return table.good() ? path : DrivenPath{};
 }
 
 Samples read_markers(const std::filesystem::path& file, std::span<const Marker> markers,
                      Diagnostics& diagnostics, Rows rows) {
-  SampleTable source(file, true, rows, diagnostics);
-  if (!source.good()) return {};
-  std::vector<std::string> expected;
   std::string all = "time and x, y, z of each marker:";
-  for (const Marker& marker : markers) {
-    for (const char* axis : axes) expected.push_back(marker.name + "." + axis);
-    all += " " + marker.name;
-  }
-  const std::vector<int> columns =
-      source.find(expected, io::Quantity::length, all, NeededAxes::present);
-  if (source.good()) source.check_points(columns);
-  return source.samples(columns);
+  for (const Marker& marker : markers) all += " " + marker.name;
+  return read_points(file,
+                     {.columns = columns_of(marker_columns(markers), Quantity::length),
+                      .expected = all,
+                      .needed = NeededColumns::points},
+                     rows, diagnostics);
 }
 
 Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics, Rows rows) {
-  SampleTable source(file, true, rows, diagnostics);
-  if (!source.good()) return {};
-  const std::vector<int> columns =
-      source.find({"fx", "fy", "fz"}, io::Quantity::force, "time,fx,fy,fz", NeededAxes::present);
-  if (source.good()) source.check_points(columns);
-  return source.samples(columns);
+  return read_points(file,
+                     {.columns = columns_of({"fx", "fy", "fz"}, Quantity::force),
+                      .expected = "time,fx,fy,fz",
+                      .needed = NeededColumns::any},
+                     rows, diagnostics);
+}
+
+std::vector<std::string> wrench_columns() {
+  return {"fx", "fy", "fz", "tx", "ty", "tz"};
+}
+
+io::TableSpec wrench_spec() {
+  io::TableSpec spec{.columns = columns_of(wrench_columns(), Quantity::force),
+                     .expected = "time,fx,fy,fz,tx,ty,tz",
+                     .needed = NeededColumns::any};
+  for (std::size_t i = 3; i < 6; ++i) spec.columns[i].quantity = Quantity::moment;
+  return spec;
 }
 
 Samples read_wrench(const std::filesystem::path& file, Diagnostics& diagnostics, Rows rows) {
-  SampleTable source(file, true, rows, diagnostics);
-  if (!source.good()) return {};
-  const std::vector<int> columns =
-      source.find({"fx", "fy", "fz", "tx", "ty", "tz"}, io::Quantity::force,
-                  "time,fx,fy,fz,tx,ty,tz", NeededAxes::any);
-  if (source.good()) source.check_points(columns);
-  return source.samples(columns);
+  return read_points(file, wrench_spec(), rows, diagnostics);
 }
 
-std::vector<MeasuredEvent> read_event_rows(const std::filesystem::path& file,
-                                           std::vector<SourcePosition>& what_is_at,
-                                           Diagnostics& diagnostics) {
+std::vector<MeasuredEvent> read_events(
+    const std::filesystem::path& file, Diagnostics& diagnostics,
+    const std::function<void(const MeasuredEvent&, io::SpecTable&)>& check) {
+  io::SpecTable table(
+      file,
+      {.columns = {{"event", std::nullopt}, {"what", std::nullopt}, {"by", std::nullopt}},
+       .expected = "time,event,what or time,event,what,by",
+       .needed_first = by_column,
+       .needs_rows = false,
+       .time = {.increasing = false, .from_zero = false}},
+      diagnostics);
   std::vector<MeasuredEvent> events;
-  const std::string text = io::read_text_file(file);
-  io::TableText table(text, file.string(), diagnostics);
-  if (!table.good()) return events;
-  const auto& columns = table.columns();
-  std::string header;
-  for (const io::TableColumn& column : columns) header += (header.empty() ? "" : ",") + column.name;
-  constexpr const char* names[] = {"time", "event", "what", "by"};
-  bool known = columns.size() == 3 || columns.size() == 4;
-  for (std::size_t c = 0; known && c < columns.size(); ++c)
-    known = io::match_column(columns[c].name, names[c]).matches;
-  if (!known) {
-    diagnostics.error({file.string(), table.header_line(), 1},
-                      "the header is " + in_quotes(header) + ", expected time,event,what");
-    return events;
-  }
-  std::string said = io::match_column(columns[0].name, "time").unit;
-  if (said.empty()) said = columns[0].unit;
-  const auto unit = said.empty() ? io::Unit{io::Quantity::time, 1.0} : io::unit_of(said);
-  if (!unit || unit->quantity != io::Quantity::time) {
-    diagnostics.error(
-        {file.string(), table.header_line(), 1},
-        "time is in " + in_quotes(said) + ", expected " + io::units_of(io::Quantity::time));
-    return events;
-  }
   while (table.next()) {
-    MeasuredEvent event;
-    event.time = table.number(0, false) * unit->factor;
-    event.event = table.cells()[1].text;
-    event.what = table.cells()[2].text;
-    what_is_at.push_back(table.at(2));
-    events.push_back(std::move(event));
+    events.push_back(
+        {table.time(), table.text(event_column), table.text(what_column), table.text(by_column)});
+    if (check) check(events.back(), table);
   }
   return events;
 }
 
-std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
-                                       const plant::PlantFile& plant, Diagnostics& diagnostics) {
-  const auto is_fruit = [&](const std::string& name) {
-    return std::ranges::any_of(plant.fruits, [&](const auto& f) { return f.name == name; });
-  };
-  std::vector<SourcePosition> places;
-  const std::vector<MeasuredEvent> events = read_event_rows(file, places, diagnostics);
-  for (std::size_t i = 0; i < events.size(); ++i)
-    if (events[i].is_detachment() && !is_fruit(events[i].what))
-      diagnostics.repeated_error("no fruit", places[i],
-                                 "what: " + in_quotes(events[i].what) + " is no fruit of plant \"" +
-                                     plant.name + "\", expected the name of one that detached");
-  return events;
+std::string table_text(const std::vector<std::string>& names, const Samples& samples, Rows rows) {
+  const bool timed = rows == Rows::time;
+  std::string text = timed ? "time" : "";
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + io::csv_cell(name);
+  for (int r = 0; r < samples.size(); ++r) {
+    text += "\n" + (timed ? io::exact_number(samples.time[static_cast<std::size_t>(r)]) : "");
+    for (long c = 0; c < samples.value.cols(); ++c)
+      text += (c > 0 || timed ? "," : "") + io::exact_number(samples.value(r, c));
+  }
+  return text + "\n";
+}
+
+std::string points_text(const std::vector<std::string>& names, const Samples& samples, Rows rows) {
+  const std::vector<int> columns = measured_columns(samples);
+  std::vector<std::string> measured;
+  for (const int c : columns) measured.push_back(names[static_cast<std::size_t>(c)]);
+  return table_text(measured, {samples.time, samples.value(Eigen::all, columns)}, rows);
 }
 
 std::string path_text(const DrivenPath& path, Rows rows) {
-  std::string text = rows == Rows::time ? "time,x,y,z" : "x,y,z";
-  text += path.rotation.empty() ? "\n" : ",qx,qy,qz,qw\n";
-  for (std::size_t r = 0; r < path.time.size(); ++r) {
-    std::vector<double> values(path.position[r].begin(), path.position[r].end());
+  std::vector<std::string> names = {"x", "y", "z"};
+  if (!path.rotation.empty()) names.insert(names.end(), {"qx", "qy", "qz", "qw"});
+  Samples samples{path.time, Eigen::MatrixXd(path.time.size(), names.size())};
+  for (int r = 0; r < samples.size(); ++r) {
+    const auto row = static_cast<std::size_t>(r);
+    samples.value.block<1, 3>(r, 0) = path.position[row].transpose();
     if (!path.rotation.empty())
-      for (const double q : path.rotation[r].coeffs()) values.push_back(q);
-    if (rows == Rows::time) values.insert(values.begin(), path.time[r]);
-    text += row_text(values);
+      samples.value.block<1, 4>(r, 3) = path.rotation[row].coeffs().transpose();
   }
-  return text;
-}
-
-std::string markers_text(const Samples& samples, std::span<const Marker> markers, Rows rows) {
-  std::vector<std::string> names;
-  for (const Marker& marker : markers)
-    for (const char* axis : axes) names.push_back(marker.name + "." + axis);
-  return samples_text(samples, names, rows);
-}
-
-std::string force_text(const Samples& samples, Rows rows) {
-  return samples_text(samples, {"fx", "fy", "fz"}, rows);
-}
-
-std::string wrench_text(const Samples& samples, Rows rows) {
-  return samples_text(samples, {"fx", "fy", "fz", "tx", "ty", "tz"}, rows);
+  return table_text(names, samples, rows);
 }
 
 std::string events_text(const std::vector<MeasuredEvent>& events) {
-  std::string text = "time,event,what\n";
+  const bool by = std::ranges::any_of(events, [](const auto& event) { return !event.by.empty(); });
+  std::string text = by ? "time,event,what,by\n" : "time,event,what\n";
   for (const MeasuredEvent& event : events)
-    text +=
-        io::exact_number(event.time) + "," + event.event + "," + io::csv_cell(event.what) + "\n";
+    text += io::exact_number(event.time) + "," + event.event + "," + io::csv_cell(event.what) +
+            (by ? "," + io::csv_cell(event.by) : "") + "\n";
   return text;
 }
 

@@ -1,18 +1,30 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "engine/core/diagnostics.h"
+#include "engine/io/table_spec.h"
 #include "plugins/discrepancy/data/experiment.h"
-#include "plugins/discrepancy/data/sample_table.h"
 
 /// The tables of an experiment folder. Faults go to the diagnostics with line and column; what
-/// comes back then is empty. The ways of writing a table are those of io::TableText; names of
-/// columns take any capitals and a unit ("m1.x (mm)", a row of units), and what comes back is in SI
-/// units.
+/// comes back then is empty. The ways of writing a table are those of io::TableText, the names of
+/// columns those of io::TableSpec, and what comes back is in SI units.
 namespace pedicel::discrepancy {
+
+/// What the rows of a table are: samples at times, or states of rest one after the other, whose
+/// "time" is the number of the row, from 0 on.
+enum class Rows { time, rest };
+
+/// Values row after row, as a matrix.
+Eigen::MatrixXd matrix_of_rows(const std::vector<double>& values, std::size_t columns);
+
+/// A table of samples. A column that is not there is NaN throughout, but where `present` receives
+/// those that are.
+Samples read_samples(const std::filesystem::path& file, const io::TableSpec& spec,
+                     Diagnostics& diagnostics, std::vector<int>* present = nullptr);
 
 /// time,x,y,z[,qx,qy,qz,qw]
 DrivenPath read_path(const std::filesystem::path& file, Diagnostics& diagnostics,
@@ -31,22 +43,35 @@ Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics,
 Samples read_wrench(const std::filesystem::path& file, Diagnostics& diagnostics,
                     Rows rows = Rows::time);
 
-/// time,event,what (and by, which is not used), without a look at the plant; where each `what`
-/// stands.
-std::vector<MeasuredEvent> read_event_rows(const std::filesystem::path& file,
-                                           std::vector<SourcePosition>& what_is_at,
-                                           Diagnostics& diagnostics);
+std::vector<std::string> wrench_columns();
+io::TableSpec wrench_spec();
 
-/// The same; what detached is a fruit of the plant.
-std::vector<MeasuredEvent> read_events(const std::filesystem::path& file,
-                                       const plant::PlantFile& plant, Diagnostics& diagnostics);
+/// Columns of a table of events behind its time.
+enum EventColumn { event_column, what_column, by_column };
 
-/// What was measured nowhere of a point has no column; `rows` says whether there is a time.
+/// time,event,what[,by]. `check` may look at each, and say what is wrong with its cells.
+std::vector<MeasuredEvent> read_events(
+    const std::filesystem::path& file, Diagnostics& diagnostics,
+    const std::function<void(const MeasuredEvent&, io::SpecTable&)>& check = {});
+
+/// "m1.x", "m1.y", "m1.z", ... of what has names.
+template <class Markers>
+std::vector<std::string> marker_columns(const Markers& markers,
+                                        const std::vector<const char*>& axes = {".x", ".y", ".z"}) {
+  std::vector<std::string> names;
+  for (const auto& marker : markers)
+    for (const char* axis : axes) names.push_back(marker.name + axis);
+  return names;
+}
+
+/// `rows` says whether there is a time.
+std::string table_text(const std::vector<std::string>& names, const Samples& samples,
+                       Rows rows = Rows::time);
+/// The same; an axis of a point that was measured nowhere has no column.
+std::string points_text(const std::vector<std::string>& names, const Samples& samples,
+                        Rows rows = Rows::time);
 std::string path_text(const DrivenPath& path, Rows rows = Rows::time);
-std::string markers_text(const Samples& samples, std::span<const Marker> markers,
-                         Rows rows = Rows::time);
-std::string force_text(const Samples& samples, Rows rows = Rows::time);
-std::string wrench_text(const Samples& samples, Rows rows = Rows::time);
+/// With `by` where it is known of one.
 std::string events_text(const std::vector<MeasuredEvent>& events);
 
 }  // namespace pedicel::discrepancy

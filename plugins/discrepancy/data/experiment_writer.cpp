@@ -121,12 +121,14 @@ void write_tables(const std::filesystem::path& folder, const Trial& trial,
     io::write_file_atomically(folder / file, text);
   };
   const Rows rows = trial.is_static ? Rows::rest : Rows::time;
-  write("markers.csv", markers_text(trial.markers, markers, rows));
+  write("markers.csv", points_text(marker_columns(markers), trial.markers, rows));
   for (std::size_t i = 0; i < trial.holds.size(); ++i)
     write(hold_file(i), path_text(trial.holds[i].path, rows));
   if (trial.base) write("base.csv", path_text(*trial.base, rows));
-  if (trial.force.size() > 0) write("force.csv", force_text(trial.force, rows));
-  if (trial.wrench.size() > 0) write("base_wrench.csv", wrench_text(trial.wrench, rows));
+  if (trial.force.size() > 0)
+    write("force.csv", points_text({"fx", "fy", "fz"}, trial.force, rows));
+  if (trial.wrench.size() > 0)
+    write("base_wrench.csv", points_text(wrench_columns(), trial.wrench, rows));
   if (!trial.events.empty()) write("events.csv", events_text(trial.events));
 }
 

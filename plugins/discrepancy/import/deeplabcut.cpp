@@ -103,15 +103,15 @@ class DeepLabCutReader {
   }
 
   void read_rows() {
-    GrowingRows rows(3 * points_.size());
+    std::vector<double> rows;
     while (table_.next() && table_.count_row(parts_.size())) {
       recording_.frame.push_back(table_.number(0, true));
       for (const DeepLabCutPoint& point : points_) add_point(rows, point);
     }
-    recording_.value = rows.matrix();
+    recording_.value = matrix_of_rows(rows, 3 * points_.size());
   }
 
-  void add_point(GrowingRows& rows, const DeepLabCutPoint& point) {
+  void add_point(std::vector<double>& rows, const DeepLabCutPoint& point) {
     std::vector<double> axes =
         point.z > 0 ? table_.point({point.x, point.y, point.z}) : table_.point({point.x, point.y});
     if (point.z == 0) axes.push_back(std::isnan(axes[0]) ? axes[0] : 0.0);
@@ -120,7 +120,7 @@ class DeepLabCutReader {
       ++unlikely_;
       axes.assign(3, std::numeric_limits<double>::quiet_NaN());
     }
-    for (const double x : axes) rows.add(x);
+    for (const double x : axes) rows.push_back(x);
   }
 
   HeadedTable table_;
@@ -131,18 +131,13 @@ class DeepLabCutReader {
   std::size_t unlikely_ = 0;
 };
 
-Recording read_deeplabcut(const RecordingSource& source) {
-  if (!is_deeplabcut(source.bytes)) {
-    source.diagnostics.error({source.file.string(), 1, 1},
-                             "does not begin with scorer, expected an export of DeepLabCut");
-    return {};
-  }
-  return DeepLabCutReader(source).read();
-}
-
 }  // namespace
 
-const RecordingFormat deeplabcut_format = {"deeplabcut", "DeepLabCut CSV", true, is_deeplabcut,
-                                           read_deeplabcut};
+const RecordingFormat deeplabcut_format = {"deeplabcut",
+                                           "DeepLabCut CSV",
+                                           true,
+                                           is_deeplabcut,
+                                           read_with<DeepLabCutReader>,
+                                           "does not begin with scorer"};
 
 }  // namespace pedicel::discrepancy

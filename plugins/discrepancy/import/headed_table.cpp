@@ -88,14 +88,6 @@ void HeadedTable::error(std::size_t column, const std::string& what) {
   diagnostics_.error(at(column), what);
 }
 
-Eigen::MatrixXd GrowingRows::matrix() const {
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  if (columns_ == 0) return {};
-  return Eigen::Map<const RowMajor>(values_.data(),
-                                    static_cast<Eigen::Index>(values_.size() / columns_),
-                                    static_cast<Eigen::Index>(columns_));
-}
-
 char separator_behind(std::string_view text, std::string_view key) {
   constexpr std::string_view separators = ",;\t";
   if (text.size() <= key.size() || !text.starts_with(key)) return '\0';

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Dense>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -9,6 +8,7 @@
 #include "engine/core/diagnostics.h"
 #include "engine/io/number_text.h"
 #include "engine/io/table_records.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
 
 namespace pedicel::discrepancy {
 
@@ -57,19 +57,6 @@ class HeadedTable {
   const std::vector<io::TableCell>* cells_;
   io::NumberStyle style_;
   std::size_t counted_ = 0;
-};
-
-/// Rows that come one by one, as a matrix in the end.
-class GrowingRows {
- public:
-  explicit GrowingRows(std::size_t columns) : columns_(columns) {}
-  void add(double value) { values_.push_back(value); }
-  /// Rows x columns.
-  Eigen::MatrixXd matrix() const;
-
- private:
-  std::size_t columns_;
-  std::vector<double> values_;
 };
 
 /// Of a line "key<separator>value...": what parts the cells where it begins with `key`; '\0' where

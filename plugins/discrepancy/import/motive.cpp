@@ -139,14 +139,14 @@ class MotiveReader {
   }
 
   void read_rows() {
-    GrowingRows rows(3 * points_.size());
+    std::vector<double> rows;
     while (table_.next() && table_.count_row(3 * points_.size() + 2)) {
       recording_.frame.push_back(table_.number(0, true));
       if (is_time()) recording_.time.push_back(table_.number(1, true));
       for (const std::size_t c : points_)
-        for (const double x : table_.point({c, c + 1, c + 2})) rows.add(x);
+        for (const double x : table_.point({c, c + 1, c + 2})) rows.push_back(x);
     }
-    recording_.value = rows.matrix();
+    recording_.value = matrix_of_rows(rows, 3 * points_.size());
   }
 
   HeadedTable table_;
@@ -156,18 +156,10 @@ class MotiveReader {
   std::vector<std::size_t> points_;  // first column of each
 };
 
-Recording read_motive(const RecordingSource& source) {
-  if (!is_motive(source.bytes)) {
-    source.diagnostics.error({source.file.string(), 1, 1},
-                             "does not begin with Format Version, expected an export of Motive");
-    return {};
-  }
-  return MotiveReader(source).read();
-}
-
 }  // namespace
 
-const RecordingFormat motive_format = {"motive", "OptiTrack Motive CSV", true, is_motive,
-                                       read_motive};
+const RecordingFormat motive_format = {
+    "motive",  "OptiTrack Motive CSV",  true,
+    is_motive, read_with<MotiveReader>, "does not begin with Format Version"};
 
 }  // namespace pedicel::discrepancy

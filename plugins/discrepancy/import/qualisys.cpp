@@ -77,7 +77,7 @@ class QualisysReader {
 
   void read_rows() {
     const std::size_t wanted = 3 * recording_.names.size();
-    GrowingRows rows(wanted);
+    std::vector<double> rows;
     while (table_.next() && table_.count_row(wanted + 2)) {
       std::size_t there = table_.cells().size();
       while (there > 0 && table_.cell(there - 1).empty() && there > wanted + 2) --there;
@@ -97,14 +97,15 @@ class QualisysReader {
       for (std::size_t m = 0; m < recording_.names.size(); ++m)
         add_point(rows, 3 * m + (counted ? 2 : 0));
     }
-    recording_.value = rows.matrix();
+    recording_.value = matrix_of_rows(rows, wanted);
   }
 
-  void add_point(GrowingRows& rows, std::size_t column) {
+  void add_point(std::vector<double>& rows, std::size_t column) {
     const std::vector<double> point = table_.point({column, column + 1, column + 2});
     const bool unseen = point[0] == 0.0 && point[1] == 0.0 && point[2] == 0.0;
     unseen_ += unseen ? 1 : 0;
-    for (const double x : point) rows.add(unseen ? std::numeric_limits<double>::quiet_NaN() : x);
+    for (const double x : point)
+      rows.push_back(unseen ? std::numeric_limits<double>::quiet_NaN() : x);
   }
 
   HeadedTable table_;
@@ -112,18 +113,13 @@ class QualisysReader {
   std::size_t unseen_ = 0;
 };
 
-Recording read_qualisys(const RecordingSource& source) {
-  if (!is_qualisys(source.bytes)) {
-    source.diagnostics.error({source.file.string(), 1, 1},
-                             "has no line NO_OF_FRAMES, expected an export of Qualisys");
-    return {};
-  }
-  return QualisysReader(source).read();
-}
-
 }  // namespace
 
-const RecordingFormat qualisys_format = {"qualisys", "Qualisys TSV", true, is_qualisys,
-                                         read_qualisys};
+const RecordingFormat qualisys_format = {"qualisys",
+                                         "Qualisys TSV",
+                                         true,
+                                         is_qualisys,
+                                         read_with<QualisysReader>,
+                                         "has no line NO_OF_FRAMES"};
 
 }  // namespace pedicel::discrepancy

@@ -72,6 +72,11 @@ std::optional<Recording> read_recording(std::string bytes, const std::filesystem
   if (is_text)
     bytes = io::text_of_bytes(std::move(bytes), file.string(), io::CaptureExports::taken);
   const RecordingFormat& format = format_of(bytes, file, name);
+  if (format.otherwise != nullptr && !format.is_kind(bytes)) {
+    diagnostics.error({file.string(), 1, 1},
+                      std::string(format.otherwise) + ", expected an export as " + format.program);
+    return std::nullopt;
+  }
   Recording recording = format.read({bytes, file, options, diagnostics});
   recording.file = file;
   recording.program = format.program;

@@ -26,7 +26,14 @@ struct RecordingFormat {
   bool (*is_kind)(std::string_view bytes);
   /// Adds an error to the diagnostics where the file cannot be read.
   Recording (*read)(const RecordingSource& source);
+  const char* otherwise = nullptr;  ///< said of a file that is not of this kind; none: by read()
 };
+
+/// read() of a class that does it.
+template <class Reader>
+Recording read_with(const RecordingSource& source) {
+  return Reader(source).read();
+}
 
 /// Bytes that is_kind() looks at, at most.
 constexpr std::size_t format_head = 4096;

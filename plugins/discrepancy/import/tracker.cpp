@@ -115,17 +115,17 @@ class TrackerReader {
   }
 
   void read_rows() {
-    GrowingRows rows(3 * x_.size());
+    std::vector<double> rows;
     while (table_.next() && table_.count_row(3 * x_.size() + 1)) {
       recording_.time.push_back(table_.number(0, true));
       for (std::size_t i = 0; i < x_.size(); ++i) {
         const std::vector<double> point = table_.point({x_[i], y_[i]});
-        rows.add(point[0]);
-        rows.add(point[1]);
-        rows.add(std::isnan(point[0]) ? point[0] : 0.0);
+        rows.push_back(point[0]);
+        rows.push_back(point[1]);
+        rows.push_back(std::isnan(point[0]) ? point[0] : 0.0);
       }
     }
-    recording_.value = rows.matrix();
+    recording_.value = matrix_of_rows(rows, 3 * x_.size());
   }
 
   TrackerHead head_;
@@ -135,13 +135,9 @@ class TrackerReader {
   std::vector<std::size_t> x_, y_;  // columns
 };
 
-Recording read_tracker(const RecordingSource& source) {
-  return TrackerReader(source).read();
-}
-
 }  // namespace
 
 const RecordingFormat tracker_format = {"tracker", "Tracker (OSP) table", true, is_tracker,
-                                        read_tracker};
+                                        read_with<TrackerReader>};
 
 }  // namespace pedicel::discrepancy

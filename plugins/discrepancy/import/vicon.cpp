@@ -106,13 +106,13 @@ class ViconReader {
 
   // To the empty line that ends the section.
   void read_rows() {
-    GrowingRows rows(3 * points_.size());
+    std::vector<double> rows;
     while (table_.next_line() && !table_.is_empty() && table_.count_row(axes_.size())) {
       recording_.frame.push_back(table_.number(0, true));
       for (const std::size_t c : points_)
-        for (const double x : table_.point({c, c + 1, c + 2})) rows.add(x);
+        for (const double x : table_.point({c, c + 1, c + 2})) rows.push_back(x);
     }
-    recording_.value = rows.matrix();
+    recording_.value = matrix_of_rows(rows, 3 * points_.size());
   }
 
   HeadedTable table_;
@@ -121,12 +121,9 @@ class ViconReader {
   std::vector<std::size_t> points_;  // first column of each
 };
 
-Recording read_vicon(const RecordingSource& source) {
-  return ViconReader(source).read();
-}
-
 }  // namespace
 
-const RecordingFormat vicon_format = {"vicon", "Vicon Nexus CSV", true, is_vicon, read_vicon};
+const RecordingFormat vicon_format = {"vicon", "Vicon Nexus CSV", true, is_vicon,
+                                      read_with<ViconReader>};
 
 }  // namespace pedicel::discrepancy

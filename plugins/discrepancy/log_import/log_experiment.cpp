@@ -13,13 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 using plant::yaml_word;
 
-std::vector<std::string> marker_names(const LogMap& map) {
-  std::vector<std::string> names;
-  for (const LogMap::Marker& marker : map.markers)
-    for (const char* axis : {".x", ".y", ".z"}) names.push_back(marker.name + axis);
-  return names;
-}
-
 void write_tables(const fs::path& folder, const LogMap& map, const LogTrial& trial) {
   const auto write = [&](const std::string& file, const std::vector<std::string>& names,
                          const Samples& samples) {
@@ -28,11 +21,11 @@ void write_tables(const fs::path& folder, const LogMap& map, const LogTrial& tri
   write("joints.csv", trial.joint_names, trial.joints);
   write("commands.csv", trial.command_names, trial.commands);
   write("torques.csv", trial.torque_names, trial.torques);
-  write("markers.csv", marker_names(map), trial.markers);
+  write("markers.csv", marker_columns(map.markers), trial.markers);
   for (std::size_t w = 0; w < trial.wrenches.size(); ++w)
     write("wrench_" + map.wrenches[w].name + ".csv", wrench_columns(), trial.wrenches[w]);
   if (!trial.events.empty())
-    io::write_file_atomically(folder / "events.csv", scene_events_text(trial.events));
+    io::write_file_atomically(folder / "events.csv", events_text(trial.events));
 }
 
 std::string experiment_text(const LogMap& map, const fs::path& scene,

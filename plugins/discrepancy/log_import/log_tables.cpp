@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "plugins/discrepancy/data/experiment_tables.h"
+
 namespace pedicel::discrepancy {
 
 namespace {
@@ -139,18 +141,12 @@ class TrialMaker {
                              "time; left out");
     if (samples.time.empty())
       diagnostics_.error(wanted.where, wanted.topic + " has no such values between from and to");
-    fill(samples, rows, static_cast<long>(columns.size()));
+    samples.value = matrix_of_rows(rows, columns.size());
     return samples;
   }
 
   bool after_last(const Samples& samples, double time) const {
     return samples.time.empty() || trial_time(time) > samples.time.back();
-  }
-
-  static void fill(Samples& samples, const std::vector<double>& rows, long columns) {
-    samples.value =
-        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-            rows.data(), static_cast<long>(samples.time.size()), columns);
   }
 
   Samples readings(const LogMap::Wrench& wanted) {
@@ -177,7 +173,7 @@ class TrialMaker {
     if (late > 0)
       out_.remarks.push_back(wanted.topic + ": " + std::to_string(late) +
                              " messages not in the order of time; left out");
-    fill(samples, rows, 6);
+    samples.value = matrix_of_rows(rows, 6);
     return samples;
   }
 
@@ -229,7 +225,7 @@ class TrialMaker {
   /// s, when the marker's fruit came off: what falls is not a place on the plant.
   double end_of(const LogMap::Marker& marker) const {
     double end = std::numeric_limits<double>::infinity();
-    for (const SceneEvent& event : out_.events)
+    for (const MeasuredEvent& event : out_.events)
       if (!marker.fruit.empty() && event.event == "detached" && event.what == marker.fruit)
         end = std::min(end, event.time);
     return end;
@@ -252,7 +248,7 @@ class TrialMaker {
       out_.markers.time.push_back(time);
       all.insert(all.end(), row.begin(), row.end());
     }
-    fill(out_.markers, all, static_cast<long>(columns));
+    out_.markers.value = matrix_of_rows(all, columns);
   }
 
   /// "fruit_1" of "truss/fruit_1", where truss is a plant of the scene.
@@ -274,7 +270,7 @@ class TrialMaker {
     std::size_t others = 0;
     for (const Timed<std::string>& one : found->second) {
       const auto json = nlohmann::json::parse(one.value, nullptr, false);
-      SceneEvent event;
+      MeasuredEvent event;
       if (json.is_object()) {
         const auto text = [&](const char* key) {
           return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";

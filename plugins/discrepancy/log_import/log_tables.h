@@ -16,7 +16,7 @@ struct LogTrial {
   Samples joints, commands, torques;  ///< rad or m; N m or N
   Samples markers;                    ///< m, W, three columns a marker of the map
   std::vector<Samples> wrenches;      ///< N and N m, one a wrench of the map
-  std::vector<SceneEvent> events;
+  std::vector<MeasuredEvent> events;
   std::vector<std::string> remarks;  ///< what was left out, a sentence each
 };
 

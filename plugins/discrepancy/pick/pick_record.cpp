@@ -3,9 +3,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "engine/io/csv.h"
 #include "engine/io/unit_text.h"
-#include "plugins/discrepancy/import/machine_column.h"
 #include "plugins/discrepancy/import/machine_table.h"
 
 namespace pedicel::discrepancy {
@@ -51,7 +49,7 @@ class PickReader {
         notes_(notes),
         // Of other files: their faults are not this one's.
         before_(diagnostics.error_count()),
-        table_(read_machine_table(file, diagnostics)) {}
+        table_(file, diagnostics, notes) {}
 
   PickRecord read() {
     PickRecord record;
@@ -60,21 +58,21 @@ class PickReader {
     // A table that cannot be read would only lead to sentences about its columns.
     if (diagnostics_.error_count() > before_) return record;
     // Told here: a reader of numbers would only say that there are none.
-    if (table_.lines.empty()) {
-      diagnostics_.error(table_.head, "no row below the names, expected the rows of a record");
+    if (table_.rows() == 0) {
+      table_.error("no row below the names, expected the rows of a record");
       return record;
     }
-    read_time(record);
+    record.time = table_.times(said_.time, {said_.time_unit, "--time-unit"},
+                               "time or --time-column with one of: " + table_.names());
     // After the time, so that a table without either is told of both.
     const std::vector<const MachineColumn*> axes = force_columns();
-    record.force.resize(static_cast<Eigen::Index>(table_.lines.size()),
+    record.force.resize(static_cast<Eigen::Index>(table_.rows()),
                         static_cast<Eigen::Index>(axes.size()));
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
       const std::vector<double> values =
           // In newtons by what the table or the person states. A number in grams looks like any
           // other.
-          si_values(table_, *axes[axis], Quantity::force, {said_.force_unit, "--force-unit"},
-                    diagnostics_, notes_);
+          table_.si_values(*axes[axis], Quantity::force, {said_.force_unit, "--force-unit"});
       // The faults are said, and further axes would repeat them.
       if (values.empty()) return record;
       record.force.col(static_cast<Eigen::Index>(axis)) = Eigen::Map<const Eigen::VectorXd>(
@@ -86,56 +84,30 @@ class PickReader {
   }
 
  private:
-  void read_time(PickRecord& record) {
-    // By words that recorders use. A column of numbers that merely rise is not taken for a clock.
-    const MachineColumn* time =
-        said_.time ? named(*said_.time)
-                   : table_.find({"time", "t", "timestamp", "elapsed time", "time stamp"});
-    // A column that was named and is not there has been told by named().
-    if (time == nullptr) {
-      if (!said_.time)
-        diagnostics_.error(table_.head,
-                           "no column is the time, expected one named time or --time-column with "
-                           "one of: " +
-                               table_.names());
-      return;
-    }
-    record.time = si_values(table_, *time, Quantity::time, {said_.time_unit, "--time-unit"},
-                            diagnostics_, notes_);
-    // A clock that jumps back makes falls of no time. Empty where a unit is missing, which has been
-    // told.
-    if (!record.time.empty()) check_increasing(table_, *time, diagnostics_);
-  }
-
-  const MachineColumn* named(const std::string& name) {
-    const MachineColumn* column = table_.named(name);
-    // With all names, since most such words are misspelt ones.
-    if (column == nullptr)
-      diagnostics_.error(table_.head,
-                         "no column " + in_quotes(name) + ", expected one of: " + table_.names());
-    return column;
-  }
-
   std::vector<const MachineColumn*> force_columns() {
     std::vector<const MachineColumn*> found;
     for (const std::string& name : said_.force)
       // In the order in which they were given. A name that is wrong has been told, and the others
       // are read on.
-      if (const MachineColumn* column = named(name)) found.push_back(column);
+      if (const MachineColumn* column = table_.named(name)) found.push_back(column);
     // What was asked for is not guessed at.
     if (!said_.force.empty()) return found;
     // In this order, whatever the table's is. One or two of them will do: sensors of one axis are
     // common.
     for (const char axis : {'x', 'y', 'z'}) {
       std::vector<const MachineColumn*> along;
-      for (const MachineColumn& column : table_.columns)
+      for (const MachineColumn& column : table_.columns())
         if (is_force_axis(column.name, axis)) along.push_back(&column);
       // Two sensors: a guess would be right half of the time.
       if (along.size() > 1) return several();
       found.insert(found.end(), along.begin(), along.end());
     }
     // A testing machine has one force, and no axes.
-    return found.empty() ? lone_force() : found;
+    if (found.empty())
+      if (const MachineColumn* force =
+              table_.lone_force("--force-column once an axis, with some of"))
+        found.push_back(force);
+    return found;
   }
 
   std::vector<const MachineColumn*> several() {
@@ -145,25 +117,6 @@ class PickReader {
                              ": more than one sensor's force, expected --force-column once an "
                              "axis, with some of: " +
                              table_.names());
-    return {};
-  }
-
-  /// The only one in a unit of force, or with the name of a load.
-  std::vector<const MachineColumn*> lone_force() {
-    std::vector<const MachineColumn*> found;
-    for (const MachineColumn& column : table_.columns) {
-      const auto unit = io::unit_of(column.unit);
-      // By its name only where it has no unit.
-      const bool known = io::match_column(column.name, "force").matches ||
-                         io::match_column(column.name, "load").matches;
-      // A unit says more than a name: "load (mm)" is no force.
-      if (unit ? unit->quantity == Quantity::force : known) found.push_back(&column);
-    }
-    // Of several forces none is taken: the wrong one would be judged without a word.
-    if (found.size() == 1) return found;
-    notes_.missing.push_back(
-        file_ + (found.empty() ? ": no column" : ": more than one column") +
-        " is a force, expected --force-column once an axis, with some of: " + table_.names());
     return {};
   }
 

@@ -259,10 +259,10 @@ std::string write_next(const std::filesystem::path& folder, const NextExperiment
   for (std::size_t m = 0; m < next.predictions.size(); ++m) {
     const Prediction& predicted = next.predictions[m];
     write("predicted_" + next.names[m] + ".csv",
-          markers_text({trial.markers.time, predicted.markers}, plan.markers));
+          points_text(marker_columns(plan.markers), {trial.markers.time, predicted.markers}));
     if (trial.force.size() > 0)
       write("predicted_force_" + next.names[m] + ".csv",
-            force_text({trial.force.time, predicted.force}));
+            points_text({"fx", "fy", "fz"}, {trial.force.time, predicted.force}));
   }
   write("predictions.svg", prediction_plot(next));
   return "next/experiment.yaml";

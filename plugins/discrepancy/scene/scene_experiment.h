@@ -52,13 +52,6 @@ struct SceneNoise {
   std::optional<double> torque_std;    ///< N m (N)
 };
 
-/// Something that happened: `what` is a plant's organ or fruit, `by` the link that did it.
-struct SceneEvent {
-  double time = 0.0;  ///< s
-  std::string event;  ///< grasped | released | detached | slipped
-  std::string what, by;
-};
-
 /// One run of the robot at the plants, and what was measured. Every table has its own times, on one
 /// clock; NaN where nothing was measured.
 struct SceneTrial {
@@ -85,7 +78,7 @@ struct SceneTrial {
   Samples markers;                ///< m, W; 3 columns a marker, in the experiment's order
   std::vector<Samples> pixels;    ///< px, one a camera; 2 columns a marker
   std::vector<Samples> wrenches;  ///< N and N m, one a sensor; 6 columns
-  std::vector<SceneEvent> events;
+  std::vector<MeasuredEvent> events;
 
   double duration() const;  ///< s, of the last sample of anything
 };

@@ -612,9 +612,13 @@ class SceneReader {
     }
     for (const WrenchSensor& sensor : out_.wrenches) {
       const std::string name = "wrench_" + sensor.name + ".csv";
-      trial.wrenches.push_back(there(name) ? read_wrench(folder / name, diagnostics_) : Samples{});
+      trial.wrenches.push_back(
+          there(name) ? read_samples(folder / name, wrench_spec(), diagnostics_) : Samples{});
     }
-    if (there("events.csv")) read_events(folder / "events.csv", trial);
+    if (there("events.csv"))
+      trial.events = read_events(
+          folder / "events.csv", diagnostics_,
+          [&](const MeasuredEvent& event, io::SpecTable& table) { check_event(event, table); });
     check_strangers(folder);
     check_begin(folder, driver, trial);
   }
@@ -671,25 +675,28 @@ class SceneReader {
       check("wrench_" + out_.wrenches[w].name + ".csv", trial.wrenches[w]);
   }
 
-  void read_events(const std::filesystem::path& file, SceneTrial& trial) {
-    std::vector<SourcePosition> places;
-    trial.events = read_scene_events(file, places, diagnostics_);
-    for (std::size_t i = 0; i < trial.events.size(); ++i) {
-      const SceneEvent& event = trial.events[i];
-      const bool known = std::ranges::any_of(out_.plants, [&](const ScenePlantFile& plant) {
-        return index_of(plant.file.fruits, event.what) >= 0 ||
-               index_of(plant.file.curves, event.what) >= 0;
-      });
-      if (!known)
-        diagnostics_.repeated_error(
-            "no organ", places[i],
-            "what: " + in_quotes(event.what) + " is no fruit or curve of a plant of the scene");
-      if (!event.by.empty() && out_.robot.link(event.by) < 0 &&
-          (event.event == "grasped" || event.event == "released"))
-        diagnostics_.repeated_error(
-            "no link", places[i],
-            "by: " + in_quotes(event.by) + ", expected one of: " + names_of(out_.robot.links));
-    }
+  void check_event(const MeasuredEvent& event, io::SpecTable& table) {
+    constexpr const char* kinds[] = {"grasped", "released", "detached", "slipped"};
+    if (std::ranges::find(kinds, event.event) == std::end(kinds))
+      table.row_error(
+          "no event", event_column,
+          "event: " + in_quotes(event.event) + ", expected grasped, released, detached or slipped");
+    if (event.time < 0.0)
+      table.row_error("no time", event_column,
+                      "the event is before the trial begins, expected a time >= 0");
+    const bool known = std::ranges::any_of(out_.plants, [&](const ScenePlantFile& plant) {
+      return index_of(plant.file.fruits, event.what) >= 0 ||
+             index_of(plant.file.curves, event.what) >= 0;
+    });
+    if (!known)
+      table.row_error(
+          "no organ", what_column,
+          "what: " + in_quotes(event.what) + " is no fruit or curve of a plant of the scene");
+    if (!event.by.empty() && out_.robot.link(event.by) < 0 &&
+        (event.event == "grasped" || event.event == "released"))
+      table.row_error(
+          "no link", by_column,
+          "by: " + in_quotes(event.by) + ", expected one of: " + names_of(out_.robot.links));
   }
 
   const YamlNode& node_;

@@ -164,7 +164,7 @@ void write_scene_tables(const fs::path& folder, const SceneExperiment& experimen
   for (std::size_t w = 0; w < trial.wrenches.size(); ++w)
     write("wrench_" + experiment.wrenches[w].name + ".csv", wrench_columns(), trial.wrenches[w]);
   if (!trial.events.empty())
-    io::write_file_atomically(folder / "events.csv", scene_events_text(trial.events));
+    io::write_file_atomically(folder / "events.csv", events_text(trial.events));
 }
 
 void write_scene_experiment(const fs::path& folder, const SceneExperiment& experiment) {

@@ -34,7 +34,7 @@ double smooth_share(double s) {
 
 bool takes_hold(const SceneTrial& trial) {
   return std::ranges::any_of(trial.events,
-                             [](const SceneEvent& one) { return one.event == "grasped"; });
+                             [](const MeasuredEvent& one) { return one.event == "grasped"; });
 }
 
 /// Makes the motions of one trial.
@@ -244,7 +244,7 @@ class Designs {
     trial.poses = base_.poses;
     trial.effects = base_.effects;
     trial.follows_commands = base_.follows_commands;
-    for (SceneEvent event : base_.events) {
+    for (MeasuredEvent event : base_.events) {
       if (event.event != "grasped" && event.event != "released") continue;
       event.time /= times;
       trial.events.push_back(event);

@@ -15,7 +15,7 @@ struct SceneReadings {
   Eigen::MatrixXd torques;                ///< N m or N, of the motors
   Eigen::MatrixXd joints;  ///< rad or m, of encoders; only where the arm follows commands
   bool healthy = true;
-  std::vector<SceneEvent> events;
+  std::vector<MeasuredEvent> events;
 };
 
 /// Motion to readings. `effects`: those of the experiment's instruments that plants' experiments

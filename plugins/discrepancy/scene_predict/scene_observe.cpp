@@ -80,11 +80,11 @@ SceneExperiment observed_scene(SceneExperiment like, const SceneVariant& variant
     take(trial.torques, found[t].torques);
     noise.add(trial.torques, 0, all, stated.torque_std);
     // What drove the model stays; what came off is what the model lost.
-    std::erase_if(trial.events, [](const SceneEvent& event) {
+    std::erase_if(trial.events, [](const MeasuredEvent& event) {
       return event.event == "detached" || event.event == "slipped";
     });
     trial.events.insert(trial.events.end(), found[t].events.begin(), found[t].events.end());
-    std::ranges::stable_sort(trial.events, {}, &SceneEvent::time);
+    std::ranges::stable_sort(trial.events, {}, &MeasuredEvent::time);
   }
   return like;
 }

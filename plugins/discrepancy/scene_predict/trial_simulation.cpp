@@ -87,7 +87,7 @@ class Parts {
 
  private:
   void add_grasps() {
-    for (const SceneEvent& event : trial_.events) {
+    for (const MeasuredEvent& event : trial_.events) {
       if (event.event != "grasped" && event.event != "released") continue;
       const int named = experiment_.robot.link(event.by);
       assets_->grasps.push_back({event.time, event.event == "grasped", event.what,

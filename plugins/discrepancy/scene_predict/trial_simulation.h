@@ -41,8 +41,8 @@ struct SceneMotion {
   /// steps x 3 dofs, rad, rad/s, rad/s2: how far joints gave way, how fast, and its change. Empty
   /// where they do not.
   Rows given;
-  std::vector<SceneEvent> events;  ///< fruits that came off
-  bool healthy = true;             ///< false: the simulation failed where the rows end
+  std::vector<MeasuredEvent> events;  ///< fruits that came off
+  bool healthy = true;                ///< false: the simulation failed where the rows end
 };
 
 /// A force from outside on a place of a plant.

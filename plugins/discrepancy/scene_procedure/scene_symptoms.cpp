@@ -368,9 +368,9 @@ class Symptoms {
 
   // When fruits came off, recorded less simulated.
   void detachment(const SceneTrial& trial, const SceneReadings& model) {
-    for (const SceneEvent& event : trial.events) {
+    for (const MeasuredEvent& event : trial.events) {
       if (event.event != "detached") continue;
-      const auto told = std::ranges::find_if(model.events, [&](const SceneEvent& one) {
+      const auto told = std::ranges::find_if(model.events, [&](const MeasuredEvent& one) {
         return one.event == "detached" && one.what == event.what;
       });
       const std::string when = event.what + " came off at " + io::format_number(event.time, 4) +

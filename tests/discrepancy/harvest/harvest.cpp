@@ -102,7 +102,7 @@ Course course_of(const SceneReadings& readings, const discrepancy::SceneTrial& t
                  const Course& real, std::size_t points) {
   Course course;
   course.healthy = readings.healthy;
-  for (const discrepancy::SceneEvent& event : readings.events)
+  for (const discrepancy::MeasuredEvent& event : readings.events)
     if (event.event == "detached") course.came_off = event.time;
   const Eigen::MatrixXd& wrench = readings.wrenches.front();
   for (long r = 0; r < wrench.rows(); ++r) take_peaks(course, wrench.row(r).transpose());

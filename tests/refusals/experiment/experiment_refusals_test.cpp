@@ -195,7 +195,8 @@ const Case table_cases[] = {
     {"force_columns", "t/force.csv", "time,x,y,z\n0,0,0,1\n",
      "t/force.csv:1:6: error: columns \"x\", \"y\", \"z\" are unknown and there is no fx, fy, fz, "
      "expected time,fx,fy,fz"},
-    {"events_header", "t/events.csv", "time,what\n", "t/events.csv:1:1: error: the header is"},
+    {"events_header", "t/events.csv", "time,what\n",
+     "t/events.csv:1:1: error: no column event, expected time,event,what"},
     {"events_cells", "t/events.csv", "time,event,what\n1,detached\n",
      "t/events.csv:2:1: error: 2 cells, expected 3 as in the header"},
     {"events_time", "t/events.csv", "time,event,what\nnow,detached,f\n",

@@ -46,15 +46,16 @@ class TrajectoryRefusals : public ::testing::Test {
 
 TEST_F(TrajectoryRefusals, Csv) {
   EXPECT_THAT(csv("time,joint1\n0,0\n"),
-              HasSubstr("refused.csv:1:1: error: first column 'time', expected time_s"));
-  EXPECT_THAT(
-      csv("# c\ntime_s,joint1,elbow\n0,0,0\n"),
-      HasSubstr("refused.csv:2:15: error: unknown joint 'elbow', expected one of joint1, "));
-  EXPECT_THAT(csv("time_s,joint1,joint1\n0,0,0\n"), HasSubstr("column 'joint1' twice"));
+              HasSubstr("refused.csv:1:1: error: column \"time\" has no unit, expected time_s"));
+  EXPECT_THAT(csv("# c\ntime_s,joint1,elbow\n0,0,0\n"),
+              HasSubstr("refused.csv:2:15: error: column \"elbow\" is unknown, expected time_s and "
+                        "joints: joint1 "));
+  EXPECT_THAT(csv("time_s,joint1,joint1\n0,0,0\n"),
+              HasSubstr("refused.csv:1:15: error: column joint1 appears twice"));
   EXPECT_THAT(csv("time_s,finger_joint_mirror\n0,0\n"),
               HasSubstr("joint 'finger_joint_mirror' follows 'finger_joint', expected that one"));
   EXPECT_THAT(csv("time_s,joint5\n0,0\n1,3\n"),
-              HasSubstr("refused.csv:3:1: error: joint5 = 3, expected -2.1642 to 2.1642"));
+              HasSubstr("refused.csv:3:3: error: joint5 = 3, expected -2.1642 to 2.1642"));
   EXPECT_THAT(csv("time_s,joint1\n1,0\n1,0\n"), HasSubstr("does not increase"));
   EXPECT_THAT(csv("time_s,joint5\n0,0\n1,3\n2,3\n"), HasSubstr("(and 1 more like it, the last"));
   EXPECT_THAT(csv("time_s,joint1 (N)\n0,0\n"),

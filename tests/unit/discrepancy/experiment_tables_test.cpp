@@ -136,10 +136,9 @@ TEST_F(ExperimentTables, TheSameFaultIsSaidOnce) {
 }
 
 TEST_F(ExperimentTables, EventsToo) {
-  std::vector<SourcePosition> places;
-  const auto events = read_event_rows(
+  const auto events = read_events(
       write("\xEF\xBB\xBFTime (ms);Event;What;By\r\n\"2310\";detached;\"fruit;1\";probe\r\n"),
-      places, diagnostics_);
+      diagnostics_);
   EXPECT_EQ(diagnostics_.text(), "");
   ASSERT_EQ(events.size(), 1u);
   EXPECT_DOUBLE_EQ(events[0].time, 2.31);

@@ -21,7 +21,7 @@ class GraspedFruit : public DiagnosedScene {
     more_["push/events.csv"] = "time,event,what,by\n0.05,grasped,apple,finger\n";
   }
   double came_off() const {
-    for (const SceneEvent& event : made_.trials.front().events)
+    for (const MeasuredEvent& event : made_.trials.front().events)
       if (event.event == "detached") return event.time;
     return std::nan("");
   }

@@ -18,7 +18,7 @@ SceneEffectDefinition define_detachment_threshold() {
   d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
     // One that is grasped and stays on says something, too.
     const bool recorded = std::ranges::any_of(c.experiment.trials, [](const SceneTrial& trial) {
-      return std::ranges::any_of(trial.events, [](const SceneEvent& e) {
+      return std::ranges::any_of(trial.events, [](const MeasuredEvent& e) {
         return e.event == "detached" || e.event == "grasped";
       });
     });
