@@ -131,6 +131,7 @@ std::vector<fs::path> files_of(const SceneExperiment& experiment) {
   };
   add(experiment.scene.file);
   add(experiment.scene.robot->file);
+  add(experiment.scene.robot->trajectory);
   for (const robot::Link& link : experiment.robot.links) {
     for (const robot::Collision& shape : link.collisions) add(shape.geometry.mesh_file);
     for (const robot::Visual& shape : link.visuals) add(shape.geometry.mesh_file);

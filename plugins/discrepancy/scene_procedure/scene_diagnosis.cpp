@@ -159,6 +159,11 @@ class Procedure {
       // An unseen plant's place moves touches as a cause does.
       if (found.baseline.model.size() > 3)
         widen_noise(fine_, data_, {found.baseline.model.effects});
+      // Where the files are right the search's own mesh and step moved away from them.
+      const Hypothesis models[] = {found.baseline.model,
+                                   scene_baseline(experiment_, options_.settings)};
+      const Eigen::MatrixXd left = evaluator.residuals(models, out_.fit_trials);
+      if (left.col(1).squaredNorm() < left.col(0).squaredNorm()) found.baseline.model = models[1];
       refit(found.baseline);
       doubt(found.baseline);
     }

@@ -57,6 +57,18 @@ TEST(LogImport, AProposedMapMakesAnExperimentOfARun) {
   EXPECT_EQ(trial.wrenches.front().size(), 1200);
 }
 
+// The table that leads the robot goes along with the scene that names it.
+TEST(LogImport, ATrajectoryOfTheSceneGoesAlong) {
+  const LoggedRun run("0.03", 0.1);
+  std::string scene = io::read_file(run.path("scene.yaml"));
+  scene.insert(scene.find("tool: finger") + 12, ", trajectory: path.csv");
+  std::ofstream(run.path("scene.yaml")) << scene;
+  const ImportArguments a = arguments(run);
+  ASSERT_EQ(import_verb(a), 0);
+  EXPECT_EQ(io::read_file(run.path("experiment/model/path.csv")),
+            io::read_file(run.path("path.csv")));
+}
+
 // The run's own scene explains the run: what is left is the difference of two ways to simulate it.
 TEST(LogImport, TheModelSaysWhatTheRunDid) {
   const LoggedRun run;
