@@ -28,6 +28,7 @@ void read_robot(LogScene& out, Diagnostics& diagnostics) {
   out.robot = std::move(*description);
   out.joints = robot::KinematicModel(out.robot).joint_names();
   add_file(out.files, robot.file);
+  add_file(out.files, robot.trajectory);
   for (const robot::Link& link : out.robot.links) {
     for (const robot::Collision& shape : link.collisions)
       if (!shape.geometry.mesh_file.empty()) add_file(out.files, shape.geometry.mesh_file);

