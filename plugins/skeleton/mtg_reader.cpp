@@ -319,16 +319,4 @@ std::vector<SkeletonNode> parse_mtg(const std::string& text, const std::string& 
   return MtgParser(file, diagnostics, unit).parse(io::without_mark(text));
 }
 
-std::optional<PlantFile> read_mtg(const std::filesystem::path& path, const MtgOptions& options,
-                                  Diagnostics& diagnostics) {
-  try {
-    const auto nodes =
-        parse_mtg(io::read_text_file(path), path.string(), diagnostics, options.unit);
-    return checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);
-  } catch (const InvalidFile& fault) {
-    diagnostics.add(fault);
-    return std::nullopt;
-  }
-}
-
 }  // namespace pedicel::plant

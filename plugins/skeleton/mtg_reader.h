@@ -32,13 +32,4 @@ std::vector<SkeletonNode> parse_mtg(const std::string& text, const std::string& 
 std::vector<SkeletonNode> parse_skeleton_csv(const std::string& text, const std::string& file,
                                              Diagnostics& diagnostics, double unit = 0.0);
 
-/// Reads an MTG text as a plant, see skeleton_plant(). Every fault goes to `diagnostics` with its
-/// line and column; nothing comes back where there is one.
-std::optional<PlantFile> read_mtg(const std::filesystem::path& path, const MtgOptions& options,
-                                  Diagnostics& diagnostics);
-
-/// The same for a table of nodes.
-std::optional<PlantFile> read_skeleton_csv(const std::filesystem::path& path,
-                                           const MtgOptions& options, Diagnostics& diagnostics);
-
 }  // namespace pedicel::plant

@@ -359,16 +359,4 @@ std::vector<SkeletonNode> parse_skeleton_csv(const std::string& text, const std:
   return TableParser(named.empty() ? text : named, file, unit, diagnostics).parse();
 }
 
-std::optional<PlantFile> read_skeleton_csv(const std::filesystem::path& path,
-                                           const MtgOptions& options, Diagnostics& diagnostics) {
-  try {
-    const auto nodes =
-        parse_skeleton_csv(io::read_text_file(path), path.string(), diagnostics, options.unit);
-    return checked_skeleton_plant(nodes, path.stem().string(), options, diagnostics);
-  } catch (const InvalidFile& fault) {
-    diagnostics.add(fault);
-    return std::nullopt;
-  }
-}
-
 }  // namespace pedicel::plant

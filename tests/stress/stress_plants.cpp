@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/io/atomic_file.h"
 #include "plugins/cosserat/solver/standing.h"
 #include "plugins/plant/plant_builder.h"
 #include "plugins/skeleton/mtg_reader.h"
@@ -177,9 +178,9 @@ std::optional<RodModel> plant_of_file(Random& random, const fs::path& path, cons
   plant::MtgOptions options;
   options.distance = 0.3;
   if (path.extension() == ".mtg")
-    file = plant::read_mtg(path, options, diagnostics);
-  else if (path.extension() == ".csv")
-    file = plant::read_skeleton_csv(path, options, diagnostics);
+    file = plant::checked_skeleton_plant(
+        plant::parse_mtg(pedicel::io::read_file(path), path.string(), diagnostics),
+        path.stem().string(), options, diagnostics);
   else
     file = plant::read_plant_file(path, diagnostics);
   if (!file) return std::nullopt;

@@ -11,6 +11,7 @@
 
 #include "engine/io/atomic_file.h"
 #include "plugins/skeleton/mtg_reader.h"
+#include "plugins/skeleton/plant_source.h"
 #include "tests/support/places.h"
 
 namespace pedicel::plant {
@@ -134,7 +135,7 @@ TEST(MtgReader, RefusesWithPlaceAndWords) {
 
 TEST(MtgReader, ReportsAFileThatIsNotThere) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(read_mtg("no/such.mtg", {}, diagnostics));
+  EXPECT_FALSE(read_plant_source("no/such.mtg", 0.0, diagnostics));
   EXPECT_THAT(diagnostics.text(), HasSubstr("no/such.mtg: error: cannot be read"));
 }
 
@@ -219,8 +220,8 @@ std::string table_of(const std::vector<SkeletonNode>& nodes) {
 
 TEST(AppleTree, BecomesAPlant) {
   Diagnostics diagnostics;
-  const auto plant = read_mtg(apple_tree, {}, diagnostics);
-  ASSERT_EQ(diagnostics.text(), "");
+  const auto plant = read_plant_source(apple_tree, 0.0, diagnostics);
+  ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.text();
   ASSERT_TRUE(plant);
   EXPECT_EQ(plant->name, "apple_tree");
   EXPECT_EQ(plant->look, Look::apple);
