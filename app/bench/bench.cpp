@@ -7,6 +7,7 @@
 
 #include "app/bench/process_memory.h"
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/core/ring_down.h"
 #include "engine/core/timer.h"
 #include "plugins/cosserat/contact/self_contact.h"
@@ -134,9 +135,7 @@ std::vector<cosserat::RodModel> bench_plants(const std::string& name) {
   if (name == "tree_2242") return {plant::hanging_tree()};
   for (const auto& [row, plants] : rows)
     if (name == row) return forest_plants(plants);
-  std::string known;
-  for (const std::string& other : bench_names()) known += (known.empty() ? "" : ", ") + other;
-  throw UsageError("bench \"" + name + "\": expected one of " + known +
+  throw UsageError("bench \"" + name + "\": expected one of " + joined(bench_names()) +
                    ", or a scene file (*.scene.yaml)");
 }
 

@@ -53,50 +53,36 @@ Shading skin_of(const FruitLook& look, int number) {
   return skin;
 }
 
+/// A box, sphere, cylinder or capsule; false: another kind.
+template <class Kind>
+bool add_solid(DrawList& shape, Kind kind, const Pose& pose, const Vec3& half_extents,
+               double radius, double length, const Shading& material) {
+  const Vec3 end(0, 0, 0.5 * length);
+  if (kind == Kind::box)
+    shape.boxes.push_back({pose, half_extents, material});
+  else if (kind == Kind::sphere)
+    shape.spheres.push_back({pose.position, radius, material});
+  else if (kind == Kind::cylinder)
+    add_cylinder(shape, pose, radius, length, material);
+  else if (kind == Kind::capsule)
+    shape.capsules.push_back({pose * -end, pose * end, radius, radius, material});
+  else
+    return false;
+  return true;
+}
+
 void add_part(DrawList& shape, const world::BodyPart& part, const Shading& material) {
-  using Kind = world::BodyPart::Kind;
-  const Vec3 half_axis = part.pose.rotation * Vec3(0, 0, 0.5 * part.length);
-  switch (part.kind) {
-    case Kind::box:
-      shape.boxes.push_back({part.pose, part.half_extents, material});
-      break;
-    case Kind::sphere:
-      shape.spheres.push_back({part.pose.position, part.radius, material});
-      break;
-    case Kind::cylinder:
-      add_cylinder(shape, part.pose, part.radius, part.length, material);
-      break;
-    case Kind::capsule:
-      shape.capsules.push_back({part.pose.position - half_axis, part.pose.position + half_axis,
-                                part.radius, part.radius, material});
-      break;
-  }
+  add_solid(shape, part.kind, part.pose, part.half_extents, part.radius, part.length, material);
 }
 
 void add_visual(DrawList& shape, const robot::Visual& visual) {
-  using Kind = robot::Geometry::Kind;
   const robot::Geometry& geometry = visual.geometry;
   const Eigen::Vector4f colour = visual.color.cast<float>();
   const Shading material{{colour[0], colour[1], colour[2]}, 0.4f, 0.5f};
-  switch (geometry.kind) {
-    case Kind::box:
-      shape.boxes.push_back({visual.X_LV, 0.5 * geometry.size, material});
-      break;
-    case Kind::sphere:
-      shape.spheres.push_back({visual.X_LV.position, geometry.radius, material});
-      break;
-    case Kind::cylinder:
-      add_cylinder(shape, visual.X_LV, geometry.radius, geometry.length, material);
-      break;
-    case Kind::capsule:
-      shape.capsules.push_back({visual.X_LV * Vec3(0, 0, -0.5 * geometry.length),
-                                visual.X_LV * Vec3(0, 0, 0.5 * geometry.length), geometry.radius,
-                                geometry.radius, material});
-      break;
-    case Kind::mesh:
-      if (geometry.mesh) shape.meshes.push_back({geometry.mesh, visual.X_LV, material});
-      break;
-  }
+  if (!add_solid(shape, geometry.kind, visual.X_LV, 0.5 * geometry.size, geometry.radius,
+                 geometry.length, material) &&
+      geometry.mesh)
+    shape.meshes.push_back({geometry.mesh, visual.X_LV, material});
 }
 
 // A flat parabola of height h over the way d is longer than it by 8/3 h^2/d. Hung upright it only

@@ -2,15 +2,11 @@
 
 #include <sstream>
 
+#include "engine/core/joined.h"
+
 namespace pedicel::app {
 
 namespace {
-
-std::string joined(const std::vector<std::string>& parts, const char* between = " ") {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
-  return text;
-}
 
 std::vector<std::string> names_of_verbs(const CommandWords& words) {
   std::vector<std::string> names;
@@ -28,7 +24,7 @@ std::vector<std::string> names_of_options(const VerbWords& verb) {
 /// The verb that is given, in the shell variable `verb`.
 void find_verb(std::ostream& out, const CommandWords& words, const char* given) {
   out << "  local verb='' word\n  for word in " << given << "; do\n    case $word in "
-      << joined(names_of_verbs(words), "|") << ") verb=$word; break ;; esac\n  done\n";
+      << joined(names_of_verbs(words), {}, "|") << ") verb=$word; break ;; esac\n  done\n";
 }
 
 /// A text may be the name of a file; a number is none.
@@ -40,8 +36,9 @@ void bash_values(std::ostream& out, const VerbWords& verb) {
   for (const OptionWords& option : verb.options) {
     if (option.value.empty()) continue;
     for (const std::string& name : option.names)
-      out << "    '" << verb.name << " " << name << "') choices='" << joined(option.choices)
-          << "' files=" << (takes_file(option) ? "yes" : "no") << " ;;\n";
+      out << "    '" << verb.name << " " << name << "') choices='"
+          << joined(option.choices, {}, " ") << "' files=" << (takes_file(option) ? "yes" : "no")
+          << " ;;\n";
   }
 }
 
@@ -65,7 +62,7 @@ void zsh_arguments(std::ostream& out, const VerbWords& verb, const char* first) 
         out << ":" << quoted(option.value) << ":"
             << (takes_file(option)       ? "_files"
                 : option.choices.empty() ? " "
-                                         : "(" + joined(option.choices) + ")");
+                                         : "(" + joined(option.choices, {}, " ") + ")");
       out << "'";
     }
   out << first << " \\\n        '*:file:_files' ;;\n";
@@ -83,10 +80,11 @@ std::string bash_completion(const CommandWords& words) {
   bash_values(out, words.program);
   for (const VerbWords& verb : words.verbs) bash_values(out, verb);
   out << "    *)\n      case $verb in\n        '') choices='"
-      << joined(names_of_options(words.program)) << " " << joined(names_of_verbs(words))
-      << "' ;;\n";
+      << joined(names_of_options(words.program), {}, " ") << " "
+      << joined(names_of_verbs(words), {}, " ") << "' ;;\n";
   for (const VerbWords& verb : words.verbs)
-    out << "        " << verb.name << ") choices='" << joined(names_of_options(verb)) << "' ;;\n";
+    out << "        " << verb.name << ") choices='" << joined(names_of_options(verb), {}, " ")
+        << "' ;;\n";
   out << "      esac ;;\n  esac\n"
          "  mapfile -t COMPREPLY < <(compgen -W \"$choices\" -- \"$current\"\n"
          "    [[ $files == no || $current == -* ]] || compgen -f -- \"$current\")\n"

@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "engine/core/joined.h"
+
 namespace pedicel::app {
 
 namespace {
@@ -35,8 +37,8 @@ std::string value_of(const OptionWords& option) {
 
 void tell_option(std::ostream& out, const OptionWords& option) {
   out << ".TP\n";
-  std::string names;
-  for (const std::string& name : option.names) names += (names.empty() ? "" : ", ") + bold(name);
+  const std::string names =
+      joined(option.names, [&](const std::string& name) { return bold(name); });
   out << names;
   if (!option.value.empty()) out << (names.empty() ? "" : " ") << value_of(option);
   out << "\n" << roff(option.help) << "\n";

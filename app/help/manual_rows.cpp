@@ -5,6 +5,7 @@
 #include "app/help/manual_cells.h"
 #include "app/session/commands/command_table.h"
 #include "engine/core/exit_code.h"
+#include "engine/core/joined.h"
 #include "engine/core/parameter.h"
 #include "engine/world/settings.h"
 #include "plugins/cosserat/solver/rod_solver.h"
@@ -25,8 +26,8 @@ std::string range_of(const effects::EffectParameter& parameter) {
   if (parameter.size > 1)
     return std::to_string(parameter.size) + " numbers, " + range_cell(parameter.bounds);
   if (parameter.size > 0) return range_cell(parameter.bounds);
-  std::string words;
-  for (const std::string& word : parameter.words) words += (words.empty() ? "" : ", ") + code(word);
+  const std::string words =
+      joined(parameter.words, [&](const std::string& word) { return code(word); });
   return words.empty() ? "a name" : words;
 }
 

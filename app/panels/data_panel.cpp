@@ -24,10 +24,6 @@ namespace {
 
 using discrepancy::Model;
 
-ImU32 ink(const render::Colour& colour) {
-  return ImGui::ColorConvertFloat4ToU32(ImVec4(colour.r, colour.g, colour.b, 1.0f));
-}
-
 void begin_ink(const render::Colour& colour) {
   ImGui::PushStyleColor(ImGuiCol_Text, ink(colour));
 }

@@ -81,10 +81,6 @@ class PlotsPanel : public Panel {
     }
   }
 
-  static ImU32 ink(const render::Colour& c) {
-    return ImGui::ColorConvertFloat4ToU32(ImVec4(c.r, c.g, c.b, 1.0f));
-  }
-
   /// The measured force is shown at once, where there is one.
   void follow_experiment(const Ui& ui) {
     if (experiment_ == ui.session.measured().data().number()) return;

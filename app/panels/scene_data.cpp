@@ -16,10 +16,6 @@ namespace {
 
 using discrepancy::Model;
 
-ImU32 ink(const render::Colour& colour) {
-  return ImGui::ColorConvertFloat4ToU32(ImVec4(colour.r, colour.g, colour.b, 1.0f));
-}
-
 /// The models that have something to show of a trial.
 std::vector<int> known_models(const MeasuredScene& scene, int trial) {
   std::vector<int> known;

@@ -7,6 +7,7 @@
 #include "app/session/document/document.h"
 #include "app/session/document/plant_import.h"
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "plugins/plant/organ_edit.h"
 #include "plugins/plant/plant_builder.h"
 #include "plugins/plant/plant_edit.h"
@@ -132,10 +133,8 @@ py::dict check(const Plant& self) {
 
 const plant::PlantNumber& number_of(const std::string& key) {
   if (const plant::PlantNumber* number = plant::find_plant_number(key)) return *number;
-  std::string names;
-  for (const plant::PlantNumber& one : plant::plant_numbers())
-    names += (names.empty() ? "" : ", ") + std::string(one.key);
-  throw UsageError("no number " + in_quotes(key) + " of a plant, expected one of: " + names);
+  throw UsageError("no number " + in_quotes(key) + " of a plant, expected one of: " +
+                   joined(plant::plant_numbers(), &plant::PlantNumber::key));
 }
 
 std::vector<std::string> names_of(const auto& all) {

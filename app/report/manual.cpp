@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/asset_folder.h"
 #include "engine/io/text_file.h"
 
@@ -56,9 +57,7 @@ std::string manual_text(const std::string& page) {
   const std::vector<std::string> pages = manual_pages();
   if (std::ranges::find(pages, page) != pages.end())
     return without_comments(io::read_text_file(folder() / (page + ".md")));
-  std::string all;
-  for (const std::string& name : pages) all += (all.empty() ? "" : ", ") + name;
-  throw UsageError("the manual has no page \"" + page + "\", expected one of: " + all);
+  throw UsageError("the manual has no page \"" + page + "\", expected one of: " + joined(pages));
 }
 
 std::filesystem::path manual_html(const std::string& page) {

@@ -6,6 +6,7 @@
 #include "app/report/log_plots.h"
 #include "app/report/run_report.h"
 #include "app/report/version.h"
+#include "engine/core/joined.h"
 #include "engine/io/atomic_file.h"
 
 namespace pedicel::app {
@@ -16,16 +17,12 @@ std::string number(double value, int digits = 4) {
   return io::format_number(value, digits);
 }
 
-std::string joined(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + number(value);
-  return text;
-}
-
 std::vector<ReportExpectation> expectations_of(const SceneResult& result) {
   std::vector<ReportExpectation> all;
   for (const world::ExpectationResult& verdict : result.verdicts)
-    all.push_back({world::to_string(verdict.expectation), joined(verdict.measured), verdict.met});
+    all.push_back({world::to_string(verdict.expectation),
+                   joined(verdict.measured, [](double value) { return number(value); }),
+                   verdict.met});
   if (result.comparison)
     for (const ColumnComparison& one : result.comparison->columns)
       all.push_back({one.column + " within " + number(result.comparison->tolerance) + " of " +

@@ -5,6 +5,7 @@
 
 #include "app/draw/tint.h"
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 
 namespace pedicel::app {
 
@@ -58,14 +59,10 @@ void SceneSensors::remember() {
 int SceneSensors::camera_index(const std::string& name) const {
   const auto& cameras = simulation_.scene().cameras;
   if (name.empty()) return cameras.empty() ? -1 : 0;
-  std::vector<std::string> names;
-  for (std::size_t c = 0; c < cameras.size(); ++c) {
-    if (cameras[c].name == name) return static_cast<int>(c);
-    names.push_back(cameras[c].name);
-  }
-  std::string list;
-  for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
-  throw UsageError("no camera " + in_quotes(name) + ", expected one of: " + list);
+  const auto found = std::ranges::find(cameras, name, &world::SceneCamera::name);
+  if (found != cameras.end()) return static_cast<int>(found - cameras.begin());
+  throw UsageError("no camera " + in_quotes(name) +
+                   ", expected one of: " + joined(cameras, &world::SceneCamera::name));
 }
 
 std::optional<SensedPicture> SceneSensors::take(PictureTaker& taker, const SenseRequest& wanted,

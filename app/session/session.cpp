@@ -60,6 +60,7 @@ Result Session::dispatch(const Command& command) {
   if (!handle)
     return core_.editor.change(description->complete ? description->complete(*this, command)
                                                      : command);
+  check_arguments(*description, command);
   Result result = handle(*this, command);
   if (result.ok && description->scope == Scope::run) core_.editor.log().add_run(command);
   return result;

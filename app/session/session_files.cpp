@@ -14,6 +14,7 @@
 #include "app/session/session_core.h"
 #include "app/session/session_measured.h"
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/csv.h"
 #include "engine/world/scene_reader.h"
@@ -115,9 +116,8 @@ struct Saved {
 
   std::string text() const {
     if (written.empty() && kept.empty()) return "nothing to save";
-    std::string names;
-    for (const fs::path& file : written.empty() ? kept : written)
-      names += (names.empty() ? "" : ", ") + file.string();
+    const std::string names = joined(written.empty() ? kept : written,
+                                     [&](const fs::path& file) { return file.string(); });
     return (written.empty() ? "unchanged " : "saved ") + names +
            (lost_comments ? " (anew, the comments are in NAME~)" : "");
   }

@@ -9,6 +9,7 @@
 #include "app/session/robot_placing.h"
 #include "app/session/session_core.h"
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/csv.h"
 #include "engine/robot/joint_range.h"
 #include "plugins/simulation/plants/plant_step.h"
@@ -21,9 +22,7 @@ namespace {
 int joint_of(const robot::KinematicModel& model, const std::string& name) {
   const int joint = model.joint_index(name);
   if (joint >= 0) return joint;
-  std::string names;
-  for (const std::string& one : model.joint_names()) names += (names.empty() ? "" : ", ") + one;
-  throw UsageError("no joint \"" + name + "\", expected one of: " + names);
+  throw UsageError("no joint \"" + name + "\", expected one of: " + joined(model.joint_names()));
 }
 
 void check_limits(const robot::KinematicModel& model, const Eigen::VectorXd& q) {

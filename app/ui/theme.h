@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "app/ui/preferences.h"
+#include "engine/render/draw_list.h"
 
 namespace pedicel::app {
 
@@ -16,6 +17,9 @@ const Palette& palette();
 /// Sets ImGui's style: colours and sizes for that scale (px a point).
 void apply_theme(Theme theme, float scale);
 
+inline ImU32 ink(const render::Colour& colour) {
+  return ImGui::ColorConvertFloat4ToU32(ImVec4(colour.r, colour.g, colour.b, 1.0f));
+}
 inline ImU32 colour_u32(const ImVec4& colour, float alpha = 1.0f) {
   return ImGui::ColorConvertFloat4ToU32(ImVec4(colour.x, colour.y, colour.z, colour.w * alpha));
 }

@@ -29,6 +29,7 @@
 #include "app/verbs/lab.h"
 #include "app/verbs/observe.h"
 #include "app/verbs/param_sweep.h"
+#include "app/verbs/part_arguments.h"
 #include "app/verbs/pick.h"
 #include "app/verbs/ros_arguments.h"
 #include "app/verbs/run_arguments.h"
@@ -118,21 +119,6 @@ void add_window_options(CLI::App& app, DesktopRequest& window, bool& paused) {
       ->check(CLI::IsMember({"window", "offscreen", "null"}));
 }
 
-/// What a picture or a film of the window would leave undone.
-void check_picture_arguments(const RunArguments& a) {
-  const std::pair<const char*, bool> of_runs[] = {
-      {"--steps", a.steps.has_value()},          {"--log", !a.log.empty()},
-      {"--events", !a.events.empty()},           {"--gltf", !a.gltf.empty()},
-      {"--trajectory", !a.trajectory.empty()},   {"--compare", !a.compare.empty()},
-      {"--save-state", !a.save_state.empty()},   {"--load-state", !a.load_state.empty()},
-      {"--param-sweep", !a.param_sweep.empty()}, {"--print-scene", a.print_scene},
-      {"--save-plants", !a.save_plants.empty()}};
-  for (const auto& [option, given] : of_runs)
-    if (given)
-      throw UsageError(std::string(option) +
-                       ": is of a run off screen, expected it without --screenshot and --record");
-}
-
 std::optional<double> duration_of(const RunArguments& a) {
   const std::string text = a.number("duration");
   if (text.empty()) return std::nullopt;
@@ -141,25 +127,16 @@ std::optional<double> duration_of(const RunArguments& a) {
   return scene.duration;
 }
 
+/// What neither a picture or a film of the window nor a log does.
+constexpr std::initializer_list<const char*> of_runs = {
+    "--steps",      "--log",        "--events",      "--gltf",        "--trajectory", "--compare",
+    "--save-state", "--load-state", "--param-sweep", "--print-scene", "--save-plants"};
+
 /// A log as a film or a picture, off screen; without either a film below --out.
 int play_verb(const RunArguments& a, const DesktopRequest& window) {
-  const std::pair<const char*, bool> of_scenes[] = {{"--set", !a.set.empty()},
-                                                    {"--steps", a.steps.has_value()},
-                                                    {"--log", !a.log.empty()},
-                                                    {"--events", !a.events.empty()},
-                                                    {"--gltf", !a.gltf.empty()},
-                                                    {"--script", !a.script.empty()},
-                                                    {"--trajectory", !a.trajectory.empty()},
-                                                    {"--compare", !a.compare.empty()},
-                                                    {"--save-state", !a.save_state.empty()},
-                                                    {"--load-state", !a.load_state.empty()},
-                                                    {"--param-sweep", !a.param_sweep.empty()},
-                                                    {"--json", a.json},
-                                                    {"--print-scene", a.print_scene},
-                                                    {"--save-plants", !a.save_plants.empty()},
-                                                    {"--with-ui", window.with_interface}};
-  for (const auto& [option, given] : of_scenes)
-    if (given) throw UsageError(std::string(option) + ": is of a scene, expected it without a log");
+  a.refuse({"--set", "--json", "--script", "--with-ui"},
+           "is of a scene, expected it without a log");
+  a.refuse(of_runs, "is of a scene, expected it without a log");
   PlayRequest request;
   request.log = a.scene;
   request.packages = a.packages;
@@ -201,7 +178,8 @@ int window_verb(const RunArguments& a, DesktopRequest window, bool paused,
     check_picture_places(window);
     return play_verb(a, window);
   }
-  if (picture) check_picture_arguments(a);
+  if (picture)
+    a.refuse(of_runs, "is of a run off screen, expected it without --screenshot and --record");
   if (!window.record.empty() && a.scene.empty())
     throw UsageError("--record: no scene given, expected one to make a film of");
   if (!open_desktop || (a.asks_for_run() && !picture)) return run_verb(a, make_films);
@@ -349,6 +327,8 @@ int guarded(const std::function<int()>& verb) {
   try {
     const int code = verb();
     return stop_requested ? stop_exit_code() : code;
+  } catch (const PartDone&) {
+    return exit_ok;
   } catch (const Stopped&) {
     return stop_exit_code();
   } catch (const InvalidFile& error) {
@@ -375,6 +355,40 @@ int guarded(const std::function<int()>& verb) {
   }
 }
 
+std::function<int()> add_bench_verb(CLI::App& app) {
+  const auto a = std::make_shared<BenchArguments>();
+  add_bench_options(
+      *app.add_subcommand("bench", "measure speed and, at the same settings, accuracy"), *a);
+  return [a] { return bench_verb(*a); };
+}
+
+struct ValidateArguments {
+  std::vector<std::string> files, packages;
+  std::string unit;
+};
+
+std::function<int()> add_validate_verb(CLI::App& app) {
+  const auto a = std::make_shared<ValidateArguments>();
+  CLI::App* verb = app.add_subcommand("validate", "load and check files without running them");
+  finds_shipped(verb->add_option(
+                    "files", a->files,
+                    "plants, experiments, scenes, leaf templates, URDFs, meshes, tables, scripts"))
+      ->required();
+  verb->add_option("--unit", a->unit, "of the lengths in skeletons: m, cm, mm or metres");
+  verb->add_option("--package", a->packages, "NAME=PATH: where package://NAME lies")
+      ->allow_extra_args(false);
+  return [a] {
+    return validate_files(a->files, a->packages, std::cerr, unit_of_text(a->unit, "--unit"));
+  };
+}
+
+std::function<int()> add_observe_verb(CLI::App& app) {
+  const auto a = std::make_shared<ObserveArguments>();
+  add_observe_options(
+      *app.add_subcommand("observe", "simulate an experiment and write it as measured data"), *a);
+  return [a] { return observe_verb(*a); };
+}
+
 }  // namespace
 
 int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFilms& make_films) {
@@ -388,8 +402,7 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
                                "scene file (*.scene.yaml), or a log that is played (*.mcap)"));
   finds_shipped(
       app.add_option("--script", run.script, "run commands from a file, one a line, off screen"));
-  app.add_flag("--headless", run.headless,
-               "no window: run off screen (so do --out, --json and --quiet)");
+  app.add_flag("--headless", "no window: run off screen (so do --out, --json and --quiet)");
   DesktopRequest window;
   bool paused = false;
   add_window_options(app, window, paused);
@@ -399,37 +412,14 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   TellArguments told;
   add_tell_options(app, told);
 
-  const std::function<int()> sweep = add_sweep_verb(app);
-
-  std::vector<std::string> files, packages;
-  CLI::App* validate = app.add_subcommand("validate", "load and check files without running them");
-  finds_shipped(validate->add_option(
-                    "files", files,
-                    "plants, experiments, scenes, leaf templates, URDFs, meshes, tables, scripts"))
-      ->required();
-  std::string unit;
-  validate->add_option("--unit", unit, "of the lengths in skeletons: m, cm, mm or metres");
-  validate->add_option("--package", packages, "NAME=PATH: where package://NAME lies")
-      ->allow_extra_args(false);
-
-  BenchArguments benched;
-  CLI::App* bench =
-      app.add_subcommand("bench", "measure speed and, at the same settings, accuracy");
-  add_bench_options(*bench, benched);
-  const std::function<int()> cluster_runs = add_cluster_verb(app);
-  const std::function<int()> diagnose = add_diagnose_verb(app);
-  const std::function<int()> fit = add_fit_verb(app);
-  const std::function<int()> import_files = add_import_verb(app);
-  const std::function<int()> lab = add_lab_verb(app);
-  const std::function<int()> transfer = add_transfer_verb(app);
-  const std::function<int()> pick = add_pick_verb(app);
-  const std::function<int()> dataset = add_dataset_verb(app);
-  const std::function<int()> manual = add_manual_verb(app);
-
-  ObserveArguments observed;
-  CLI::App* observe =
-      app.add_subcommand("observe", "simulate an experiment and write it as measured data");
-  add_observe_options(*observe, observed);
+  const std::pair<const char*, std::function<int()>> verbs[] = {
+      {"sweep", add_sweep_verb(app)},       {"validate", add_validate_verb(app)},
+      {"bench", add_bench_verb(app)},       {"cluster", add_cluster_verb(app)},
+      {"diagnose", add_diagnose_verb(app)}, {"fit", add_fit_verb(app)},
+      {"import", add_import_verb(app)},     {"lab", add_lab_verb(app)},
+      {"transfer", add_transfer_verb(app)}, {"pick", add_pick_verb(app)},
+      {"dataset", add_dataset_verb(app)},   {"manual", add_manual_verb(app)},
+      {"observe", add_observe_verb(app)}};
   app.require_subcommand(0, 1);
 
   try {
@@ -440,23 +430,9 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
   if (const int code = guarded([&] { return check_finite(app), static_cast<int>(exit_ok); }))
     return code;
   if (!told.shell.empty() || told.man_page) return tell_verb(app, told);
-  if (app.got_subcommand("sweep")) return guarded(sweep);
-  if (*validate)
-    return guarded(
-        [&] { return validate_files(files, packages, std::cerr, unit_of_text(unit, "--unit")); });
-  if (*bench) return guarded([&] { return bench_verb(benched); });
-  if (app.got_subcommand("cluster")) return guarded(cluster_runs);
-  if (app.got_subcommand("diagnose")) return guarded(diagnose);
-  if (app.got_subcommand("fit")) return guarded(fit);
-  if (app.got_subcommand("import")) return guarded(import_files);
-  if (app.got_subcommand("lab")) return guarded(lab);
-  if (app.got_subcommand("transfer")) return guarded(transfer);
-  if (app.got_subcommand("pick")) return guarded(pick);
-  if (app.got_subcommand("dataset")) return guarded(dataset);
-  if (app.got_subcommand("manual")) return guarded(manual);
-  if (*observe) return guarded([&] { return observe_verb(observed); });
+  for (const auto& [name, verb] : verbs)
+    if (app.got_subcommand(name)) return guarded(verb);
   return guarded([&] {
-    check_ros_arguments(ros);
     if (!ros.ros) return window_verb(run, window, paused, open_desktop, make_films);
     check_run_arguments(run);
     apply_verbosity(run);

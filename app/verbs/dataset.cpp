@@ -98,16 +98,6 @@ std::array<double, 2> times_of(const std::string& text, double duration) {
   return {*from, *to};
 }
 
-void check_camera(const world::Scene& scene, const std::string& camera) {
-  if (camera.empty() ||
-      std::ranges::any_of(scene.cameras, [&](const auto& one) { return one.name == camera; }))
-    return;
-  std::string names;
-  for (const world::SceneCamera& one : scene.cameras)
-    names += (names.empty() ? "" : ", ") + one.name;
-  throw UsageError("--camera " + camera + ": expected one of: " + names);
-}
-
 DataSetOptions options_of(const DatasetArguments& a) {
   DataSetOptions options;
   RunArguments run = a.run;
@@ -122,7 +112,7 @@ DataSetOptions options_of(const DatasetArguments& a) {
                     : std::filesystem::path(a.run.out);
   options.count = a.count;
   options.seed = options.scene.seed;
-  check_camera(options.scene, a.run.camera);
+  if (!a.run.camera.empty()) check_camera(options.scene, a.run.camera);
   options.camera = a.run.camera;
   options.at = times_of(a.at, options.scene.duration);
   options.quiet = a.run.quiet;

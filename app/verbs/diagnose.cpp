@@ -130,13 +130,7 @@ std::function<int()> add_diagnose_verb(CLI::App& app) {
                    "s after which the search ends, and what is known is written")
       ->check(CLI::Range(1.0e-3, 1.0e9));
   verb->add_flag("--verbose", a->verbose, "every finding on standard error as it is made");
-  return [a, verb] {
-    try {
-      return run(*a, *verb);
-    } catch (const PartDone&) {
-      return static_cast<int>(exit_ok);
-    }
-  };
+  return [a, verb] { return run(*a, *verb); };
 }
 
 }  // namespace pedicel::app

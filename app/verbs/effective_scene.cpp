@@ -6,6 +6,7 @@
 
 #include "app/session/document/document.h"
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/yaml_text.h"
 #include "engine/world/scene_reader.h"
@@ -110,9 +111,7 @@ void write_video(YamlText& text, const world::SceneVideo& video) {
 void write_sweep(YamlText& text, const world::Scene& before, const world::Scene& scene) {
   if (!scene.sweep) text.remove({"sweep"});
   if (scene.sweep) {
-    std::string values;
-    for (const double value : scene.sweep->values)
-      values += (values.empty() ? "" : ", ") + exact(value);
+    const std::string values = joined(scene.sweep->values, exact);
     text.set({"sweep", "set"}, plant::yaml_word(scene.sweep->key));
     text.set({"sweep", "values"}, "[" + values + "]");
   }

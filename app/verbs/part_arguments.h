@@ -33,8 +33,6 @@ class SearchParts {
               const std::filesystem::path& out, const CLI::App& verb);
   ~SearchParts();
   discrepancy::FitParts* parts() const { return parts_.get(); }
-  /// Whether it is a verb's own call, which handed tasks in.
-  static bool hands_in(const PartArguments& a) { return a.cluster.wanted(); }
 
  private:
   std::unique_ptr<discrepancy::FitParts> parts_;

@@ -15,26 +15,21 @@
 namespace pedicel::app {
 
 void add_ros_options(CLI::App& app, RosArguments& a) {
-  app.add_flag("--ros", a.ros, "run off screen as a node of ROS 2, until it is stopped");
+  CLI::Option* ros =
+      app.add_flag("--ros", a.ros, "run off screen as a node of ROS 2, until it is stopped");
   app.add_option("--domain", a.domain, "of ROS 2 (default: ROS_DOMAIN_ID, else 0)")
-      ->check(CLI::Range(0, 232));
-  app.add_option("--namespace", a.ros_namespace, "of its topics and services: /arm");
+      ->check(CLI::Range(0, 232))
+      ->needs(ros);
+  app.add_option("--namespace", a.ros_namespace, "of its topics and services: /arm")->needs(ros);
   app.add_option(
-      "--ros-interface", a.interface,
-      "name or address of the network interface that ROS 2 uses, or any (default: this machine "
-      "only)");
+         "--ros-interface", a.interface,
+         "name or address of the network interface that ROS 2 uses, or any (default: this machine "
+         "only)")
+      ->needs(ros);
   app.add_option("--pace", a.pace,
                  "simulated seconds a second with --ros; 0: as fast as it can (default: 1)")
-      ->check(CLI::Range(0.0, 1.0e3));
-}
-
-void check_ros_arguments(const RosArguments& a) {
-  const std::pair<const char*, bool> all[] = {{"--domain", a.domain.has_value()},
-                                              {"--namespace", !a.ros_namespace.empty()},
-                                              {"--ros-interface", !a.interface.empty()},
-                                              {"--pace", a.pace.has_value()}};
-  for (const auto& [option, given] : all)
-    if (given && !a.ros) throw UsageError(std::string(option) + ": expected --ros beside it");
+      ->check(CLI::Range(0.0, 1.0e3))
+      ->needs(ros);
 }
 
 #ifdef PEDICEL_ROS
@@ -57,19 +52,9 @@ int domain_of(const RosArguments& a) {
 
 int ros_verb(const RosArguments& a, const RunArguments& run, bool paused) {
   if (run.scene.empty()) throw UsageError("--ros: no scene given, expected one");
-  const std::pair<const char*, bool> others[] = {{"--out", !run.out.empty()},
-                                                 {"--events", !run.events.empty()},
-                                                 {"--gltf", !run.gltf.empty()},
-                                                 {"--compare", !run.compare.empty()},
-                                                 {"--save-state", !run.save_state.empty()},
-                                                 {"--json", run.json},
-                                                 {"--load-state", !run.load_state.empty()},
-                                                 {"--script", !run.script.empty()},
-                                                 {"--param-sweep", !run.param_sweep.empty()}};
-  for (const auto& [option, given] : others)
-    if (given)
-      throw UsageError(std::string(option) +
-                       ": is of a run with an end, expected it without --ros");
+  run.refuse({"--out", "--events", "--gltf", "--compare", "--save-state", "--json", "--load-state",
+              "--script", "--param-sweep"},
+             "is of a run with an end, expected it without --ros");
   if (!run.log.empty() && !run.log.ends_with(".mcap"))
     throw UsageError("--log " + run.log + ": expected a name that ends in .mcap beside --ros");
   if (!is_namespace(a.ros_namespace))

@@ -22,7 +22,4 @@ void add_ros_options(CLI::App& app, RosArguments& a);
 /// io::WriteError.
 int ros_verb(const RosArguments& a, const RunArguments& run, bool paused);
 
-/// Throws UsageError where something is said of ROS and --ros is not.
-void check_ros_arguments(const RosArguments& a);
-
 }  // namespace pedicel::app

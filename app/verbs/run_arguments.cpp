@@ -13,6 +13,7 @@
 #include "app/topics/mcap_log.h"
 #include "app/verbs/cluster.h"
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/core/verbosity.h"
 #include "engine/io/asset_folder.h"
 #include "engine/io/atomic_file.h"
@@ -23,20 +24,6 @@
 #include "engine/world/settings.h"
 
 namespace pedicel::app {
-
-namespace {
-
-std::optional<std::array<int, 2>> parse_size(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  std::array<int, 2> size{};
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size[0], &size[1], &rest) != 2 || size[0] < 16 ||
-      size[1] < 16 || size[0] > 8192 || size[1] > 8192)
-    throw UsageError("--size " + text + ": expected WxH in pixels, 16 to 8192 each (1280x720)");
-  return size;
-}
-
-}  // namespace
 
 namespace {
 
@@ -77,12 +64,24 @@ std::string RunArguments::number(const std::string& key) const {
   return found == numbers.end() ? "" : found->second;
 }
 
+bool RunArguments::has_one_of(std::initializer_list<const char*> options) const {
+  return std::ranges::any_of(options, [&](const char* name) {
+    const CLI::Option* option = app->get_option_no_throw(name);
+    return option && option->count() > 0;
+  });
+}
+
+void RunArguments::refuse(std::initializer_list<const char*> options,
+                          const std::string& why) const {
+  for (const char* option : options)
+    if (has_one_of({option})) throw UsageError(std::string(option) + ": " + why);
+}
+
 bool RunArguments::asks_for_run() const {
-  const bool files = !out.empty() || !script.empty() || !log.empty() || !events.empty() ||
-                     !gltf.empty() || !compare.empty() || !save_state.empty() ||
-                     !save_plants.empty() || !load_state.empty() || !param_sweep.empty() ||
-                     !trajectory.empty();
-  return files || headless || json || quiet || print_scene || steps;
+  return has_one_of({"--out", "--script", "--log", "--events", "--gltf", "--compare",
+                     "--save-state", "--save-plants", "--load-state", "--param-sweep",
+                     "--trajectory", "--headless", "--json", "--quiet", "--print-scene",
+                     "--steps"});
 }
 
 CLI::Option* finds_shipped(CLI::Option* option) {
@@ -94,6 +93,7 @@ CLI::Option* finds_shipped(CLI::Option* option) {
 }
 
 void add_run_options(CLI::App& app, RunArguments& a) {
+  a.app = &app;
   app.add_option(
       "--out", a.out,
       "folder for everything that is written (default: out/<scene>); what an earlier run "
@@ -186,15 +186,8 @@ void check_run_arguments(const RunArguments& a) {
   check_files(a);
   if (a.quiet && a.verbosity) throw UsageError("--quiet and -v: expected one of them");
   if (!a.param_sweep.empty())
-    for (const auto& [option, given] : {std::pair{"--log", &a.log},
-                                        {"--events", &a.events},
-                                        {"--gltf", &a.gltf},
-                                        {"--compare", &a.compare},
-                                        {"--save-state", &a.save_state},
-                                        {"--load-state", &a.load_state}})
-      if (!given->empty())
-        throw UsageError(std::string(option) +
-                         ": is of one run, expected it without --param-sweep");
+    a.refuse({"--log", "--events", "--gltf", "--compare", "--save-state", "--load-state"},
+             "is of one run, expected it without --param-sweep");
 }
 
 namespace {
@@ -219,19 +212,15 @@ void apply_trajectory(const RunArguments& a, world::Scene& scene) {
   scene.robot->waypoints.clear();
 }
 
-void apply_camera(const RunArguments& a, world::Scene& scene) {
-  if (a.camera.empty()) return;
-  std::string names;
-  for (const world::SceneCamera& camera : scene.cameras) {
-    if (camera.name == a.camera) scene.video.camera = a.camera;
-    names += (names.empty() ? "" : ", ") + camera.name;
-  }
-  if (scene.video.camera != a.camera)
-    throw UsageError("--camera " + a.camera + ": the scene has none of that name, expected " +
-                     (names.empty() ? "a scene with cameras" : "one of: " + names));
-}
-
 }  // namespace
+
+void check_camera(const world::Scene& scene, const std::string& name) {
+  if (std::ranges::count(scene.cameras, name, &world::SceneCamera::name) > 0) return;
+  throw UsageError("--camera " + name + ": the scene has none of that name, expected " +
+                   (scene.cameras.empty()
+                        ? "a scene with cameras"
+                        : "one of: " + joined(scene.cameras, &world::SceneCamera::name)));
+}
 
 world::Scene load_scene(const RunArguments& a) {
   Diagnostics diagnostics;
@@ -254,9 +243,12 @@ world::Scene load_scene(const RunArguments& a) {
   }
   apply_steps(a, *scene);
   apply_trajectory(a, *scene);
-  apply_camera(a, *scene);
+  if (!a.camera.empty()) {
+    check_camera(*scene, a.camera);
+    scene->video.camera = a.camera;
+  }
   if (a.fps) scene->video.fps = *a.fps;
-  if (const auto size = parse_size(a.size)) scene->video.size = *size;
+  if (!a.size.empty()) scene->video.size = world::to_picture_size(a.size, "--size");
   if (a.no_sweep) {
     scene->sweep.reset();
     std::erase_if(scene->expectations, [](const auto& e) { return e.over_sweep(); });
@@ -291,7 +283,7 @@ RunOptions run_options(const RunArguments& a) {
   options.pictures = !a.no_pictures;
   options.video = !a.no_video;
   options.fps = a.fps;
-  options.size = parse_size(a.size);
+  if (!a.size.empty()) options.size = world::to_picture_size(a.size, "--size");
   options.quiet = a.quiet;
   return options;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@ namespace pedicel::app {
 
 /// What the command line says of a run; names as in the options.
 struct RunArguments {
+  const CLI::App* app = nullptr;  ///< that has read them
   std::string scene, script, out, size, camera, unit;
   std::string log, events, gltf, trajectory, compare, save_state, load_state, save_plants,
       param_sweep;
@@ -25,11 +27,15 @@ struct RunArguments {
   std::optional<double> fps, tolerance;
   std::optional<long> steps;
   std::optional<int> verbosity;
-  bool headless = false, json = false, quiet = false, no_video = false, no_pictures = false,
-       no_sweep = false, print_scene = false;
+  bool json = false, quiet = false, no_video = false, no_pictures = false, no_sweep = false,
+       print_scene = false;
 
   /// Of `numbers`; empty where it was not given.
   std::string number(const std::string& key) const;
+  /// Whether one of these options stands in the command line.
+  bool has_one_of(std::initializer_list<const char*> options) const;
+  /// Throws UsageError where one of them does: "--log: " and why.
+  void refuse(std::initializer_list<const char*> options, const std::string& why) const;
   /// Whether there is something that only a run off screen does.
   bool asks_for_run() const;
 };
@@ -47,6 +53,9 @@ void check_run_arguments(const RunArguments& a);
 /// Reads the scene and applies the options to it; warnings go to standard error. Throws InvalidFile
 /// and UsageError.
 world::Scene load_scene(const RunArguments& a);
+
+/// Throws UsageError where the scene has no camera of the name that --camera gives.
+void check_camera(const world::Scene& scene, const std::string& name);
 
 /// Throws UsageError for a size that is none, and InvalidFile for measured data that are none.
 RunOptions run_options(const RunArguments& a);

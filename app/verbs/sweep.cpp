@@ -75,14 +75,8 @@ void check_arguments(const SweepArguments& a) {
   check_run_arguments(a);
   if (!a.load_state.empty()) throw UsageError("sweep: expected no --load-state");
   if (!a.cluster.wanted() && a.part < 0) return;
-  const std::pair<const char*, const std::string*> of_one_run[] = {{"--log", &a.log},
-                                                                   {"--events", &a.events},
-                                                                   {"--gltf", &a.gltf},
-                                                                   {"--compare", &a.compare},
-                                                                   {"--save-state", &a.save_state}};
-  for (const auto& [option, given] : of_one_run)
-    if (!given->empty())
-      throw UsageError(std::string(option) + ": is of one run, expected it without --cluster");
+  a.refuse({"--log", "--events", "--gltf", "--compare", "--save-state"},
+           "is of one run, expected it without --cluster");
 }
 
 int run(SweepArguments a, const CLI::App& verb) {

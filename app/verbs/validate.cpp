@@ -9,6 +9,7 @@
 #include "app/session/document/document.h"
 #include "app/verbs/scene_experiment.h"
 #include "app/verbs/validate_tables.h"
+#include "engine/core/joined.h"
 #include "engine/geometry/mesh.h"
 #include "engine/io/text_file.h"
 #include "engine/io/yaml.h"
@@ -169,9 +170,8 @@ Kind kind_of_table(const TableKind& table) {
 }
 
 std::string expected_kinds() {
-  std::string list;
-  for (const Kind& kind : kinds)
-    list += std::string(list.empty() ? "" : ", ") + (*kind.format ? kind.format : kind.extension);
+  const std::string list =
+      joined(kinds, [&](const Kind& kind) { return *kind.format ? kind.format : kind.extension; });
   return list + ", " + robot::robot_formats() + ", a table (.csv) or a script of commands";
 }
 

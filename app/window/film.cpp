@@ -1,6 +1,7 @@
 #include "app/window/film.h"
 
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/atomic_file.h"
 #include "engine/render/offscreen.h"
 
@@ -26,8 +27,7 @@ int camera_index(const Snapshot& now, const std::string& name) {
   for (std::size_t i = 0; i < cameras.size(); ++i)
     if (name.empty() || cameras[i].name == name) return static_cast<int>(i);
   if (name.empty()) return -1;
-  std::string names;
-  for (const auto& camera : cameras) names += (names.empty() ? "" : ", ") + camera.name;
+  const std::string names = joined(cameras, [&](const auto& camera) { return camera.name; });
   throw UsageError("no camera \"" + name + "\", expected one of: " + names);
 }
 

@@ -8,6 +8,7 @@
 #include "app/session/measured/scene_instant.h"
 #include "app/session/session.h"
 #include "app/session/session_measured.h"
+#include "app/ui/theme.h"
 #include "app/view/measured_marks.h"
 #include "plugins/discrepancy/scene/camera.h"
 
@@ -16,10 +17,6 @@ namespace pedicel::app {
 namespace {
 
 constexpr int edge_points = 16;  // a side: distortion bends it
-
-ImU32 ink(const render::Colour& colour) {
-  return ImGui::ColorConvertFloat4ToU32(ImVec4(colour.r, colour.g, colour.b, 1.0f));
-}
 
 /// Screen pixels that the plane at z = 1 in front of the camera is wide, by the metre.
 double enlargement(const discrepancy::Camera& camera, const ImVec2& size) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "engine/cluster/process.h"
+#include "engine/core/joined.h"
 #include "engine/core/stop.h"
 #include "engine/io/atomic_file.h"
 
@@ -20,12 +21,6 @@ std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
-  return text;
 }
 
 /// One more than the largest index that a task of an array may have.
@@ -119,7 +114,7 @@ Queue::State SlurmQueue::state() {
   if (jobs_.jobs.empty()) return state;
   Process squeue(
       {"squeue", "--noheader", "--array", "--Format=JobArrayID:60,State:30,RestartCnt:20,Reason:60",
-       "--jobs=" + joined(jobs_.jobs)},
+       "--jobs=" + joined(jobs_.jobs, {}, ",")},
       {});
   if (squeue.wait() != 0) {
     // Jobs that ended some minutes ago are forgotten, and are no jobs then.
@@ -153,7 +148,7 @@ void SlurmQueue::cancel() {
 }
 
 std::string SlurmQueue::left() const {
-  return jobs_.jobs.empty() ? "" : "job " + joined(jobs_.jobs);
+  return jobs_.jobs.empty() ? "" : "job " + joined(jobs_.jobs, {}, ",");
 }
 
 }  // namespace pedicel::cluster

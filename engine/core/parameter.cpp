@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/core/joined.h"
+
 namespace pedicel {
 
 namespace {
@@ -57,12 +59,7 @@ const Parameter* find_parameter(const std::vector<Parameter>& parameters, std::s
 }
 
 std::string parameter_names(const std::vector<Parameter>& parameters) {
-  std::string text;
-  for (const Parameter& parameter : parameters) {
-    if (!text.empty()) text += ", ";
-    text += parameter.name;
-  }
-  return text;
+  return joined(parameters, &Parameter::name);
 }
 
 std::optional<std::string> check_parameters(const std::vector<Parameter>& parameters) {

@@ -36,6 +36,20 @@ struct Key {
   std::string sentence{};            ///< what it is, as a phrase
 };
 
+/// `format` and `version`, the first two keys of all our files.
+inline Key format_key(const std::string& format) {
+  return {.name = "format",
+          .type = KeyType::word,
+          .words = {format},
+          .sentence = "says what the file is"};
+}
+inline Key version_key() {
+  return {.name = "version",
+          .type = KeyType::whole,
+          .bounds = {1, 1},
+          .sentence = "version of the format"};
+}
+
 /// The keys of one map of a file.
 struct KeyList {
   std::string name;  ///< what its table in the manual is called by: "body"

@@ -1,8 +1,10 @@
 #include "engine/io/yaml.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "engine/core/joined.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/bounds.h"
 #include "engine/io/csv.h"
@@ -144,12 +146,8 @@ std::string YamlNode::text(const std::string& what) const {
 
 std::string YamlNode::choice(const std::string& what,
                              const std::vector<std::string>& allowed) const {
-  std::string list;
-  for (const std::string& word : allowed) {
-    if (node_.IsScalar() && node_.Scalar() == word) return word;
-    list += (list.empty() ? "" : ", ") + word;
-  }
-  error(what + " is " + shown(node_) + ", expected one of: " + list);
+  if (node_.IsScalar() && std::ranges::count(allowed, node_.Scalar()) > 0) return node_.Scalar();
+  error(what + " is " + shown(node_) + ", expected one of: " + joined(allowed));
   return allowed.front();
 }
 
@@ -264,8 +262,7 @@ std::vector<YamlNode> YamlMap::list(const std::string& key) {
 
 void YamlMap::finish() {
   if (!node_.is_map()) return;
-  std::string expected;
-  for (const std::string& key : asked_) expected += (expected.empty() ? "" : ", ") + key;
+  const std::string expected = joined(asked_);
   for (const auto& item : node_.raw()) {
     if (asked_.contains(item.first.Scalar())) continue;
     YamlNode(item.first, node_.file(), node_.diagnostics())

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/yaml_words.h"
 
 namespace pedicel::io {
@@ -85,14 +86,13 @@ std::size_t end_of_alias(const std::string& text, const YAML::Node& key, std::si
 
 std::string flow_text(const YAML::Node& node) {
   if (node.IsSequence()) {
-    std::string items;
-    for (const auto& item : node) items += (items.empty() ? "" : ", ") + flow_text(item);
+    std::string items = joined(node, [&](const auto& item) { return flow_text(item); });
     return "[" + items + "]";
   }
   if (node.IsMap()) {
-    std::string items;
-    for (const auto& item : node)
-      items += (items.empty() ? "" : ", ") + flow_text(item.first) + ": " + flow_text(item.second);
+    const std::string items = joined(node, [&](const auto& item) {
+      return flow_text(item.first) + ": " + flow_text(item.second);
+    });
     return "{" + items + "}";
   }
   if (!node.IsScalar()) return "null";

@@ -43,8 +43,4 @@ Trajectory plan_cartesian(const KinematicModel& model, const std::vector<Waypoin
                           const Eigen::VectorXd& q_start, const PathSettings& settings,
                           Diagnostics& diagnostics);
 
-/// Reads a list of waypoints: {time, tool, position, orientation | approach, joints: {name:
-/// value}}. `tool` may be left out where `default_tool` names one.
-std::vector<Waypoint> read_waypoints(const io::YamlNode& list, const std::string& default_tool);
-
 }  // namespace pedicel::robot

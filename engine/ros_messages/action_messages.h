@@ -9,21 +9,14 @@ struct UUID {
   static constexpr const char* name = "unique_identifier_msgs/msg/UUID";
   std::array<std::uint8_t, 16> uuid{};
   bool operator==(const UUID&) const = default;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("uuid", self.uuid);
-  }
+  PEDICEL_FIELDS(uuid)
 };
 
 struct GoalInfo {
   static constexpr const char* name = "action_msgs/msg/GoalInfo";
   UUID goal_id;
   Time stamp;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("goal_id", self.goal_id);
-    visit("stamp", self.stamp);
-  }
+  PEDICEL_FIELDS(goal_id, stamp)
 };
 
 struct GoalStatus {
@@ -32,20 +25,13 @@ struct GoalStatus {
                                succeeded = 4, canceled = 5, aborted = 6;
   GoalInfo goal_info;
   std::int8_t status = unknown;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("goal_info", self.goal_info);
-    visit("status", self.status);
-  }
+  PEDICEL_FIELDS(goal_info, status)
 };
 
 struct GoalStatusArray {
   static constexpr const char* name = "action_msgs/msg/GoalStatusArray";
   std::vector<GoalStatus> status_list;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("status_list", self.status_list);
-  }
+  PEDICEL_FIELDS(status_list)
 };
 
 struct CancelGoal {
@@ -54,20 +40,13 @@ struct CancelGoal {
   struct Request {
     static constexpr const char* name = "action_msgs/srv/CancelGoal_Request";
     GoalInfo goal_info;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("goal_info", self.goal_info);
-    }
+    PEDICEL_FIELDS(goal_info)
   };
   struct Response {
     static constexpr const char* name = "action_msgs/srv/CancelGoal_Response";
     std::int8_t return_code = none;
     std::vector<GoalInfo> goals_canceling;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("return_code", self.return_code);
-      visit("goals_canceling", self.goals_canceling);
-    }
+    PEDICEL_FIELDS(return_code, goals_canceling)
   };
 };
 
@@ -76,13 +55,7 @@ struct MultiDOFJointTrajectoryPoint {
   std::vector<Transform> transforms;
   std::vector<TwistMessage> velocities, accelerations;
   Duration time_from_start;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("transforms", self.transforms);
-    visit("velocities", self.velocities);
-    visit("accelerations", self.accelerations);
-    visit("time_from_start", self.time_from_start);
-  }
+  PEDICEL_FIELDS(transforms, velocities, accelerations, time_from_start)
 };
 
 struct MultiDOFJointTrajectory {
@@ -90,12 +63,7 @@ struct MultiDOFJointTrajectory {
   Header header;
   std::vector<std::string> joint_names;
   std::vector<MultiDOFJointTrajectoryPoint> points;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("joint_names", self.joint_names);
-    visit("points", self.points);
-  }
+  PEDICEL_FIELDS(header, joint_names, points)
 };
 
 struct JointTolerance {
@@ -116,14 +84,7 @@ struct JointComponentTolerance {
   std::string joint_name;
   std::uint16_t component = 0;
   double position = 0, velocity = 0, acceleration = 0;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("joint_name", self.joint_name);
-    visit("component", self.component);
-    visit("position", self.position);
-    visit("velocity", self.velocity);
-    visit("acceleration", self.acceleration);
-  }
+  PEDICEL_FIELDS(joint_name, component, position, velocity, acceleration)
 };
 
 struct FollowJointTrajectory {
@@ -137,16 +98,8 @@ struct FollowJointTrajectory {
     std::vector<JointTolerance> goal_tolerance;
     std::vector<JointComponentTolerance> component_goal_tolerance;
     Duration goal_time_tolerance;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("trajectory", self.trajectory);
-      visit("multi_dof_trajectory", self.multi_dof_trajectory);
-      visit("path_tolerance", self.path_tolerance);
-      visit("component_path_tolerance", self.component_path_tolerance);
-      visit("goal_tolerance", self.goal_tolerance);
-      visit("component_goal_tolerance", self.component_goal_tolerance);
-      visit("goal_time_tolerance", self.goal_time_tolerance);
-    }
+    PEDICEL_FIELDS(trajectory, multi_dof_trajectory, path_tolerance, component_path_tolerance,
+                   goal_tolerance, component_goal_tolerance, goal_time_tolerance)
   };
   struct Result {
     static constexpr const char* name = "control_msgs/action/FollowJointTrajectory_Result";
@@ -154,11 +107,7 @@ struct FollowJointTrajectory {
                                   goal_tolerance_violated = -5;
     std::int32_t error_code = successful;
     std::string error_string;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("error_code", self.error_code);
-      visit("error_string", self.error_string);
-    }
+    PEDICEL_FIELDS(error_code, error_string)
   };
   struct Feedback {
     static constexpr const char* name = "control_msgs/action/FollowJointTrajectory_Feedback";
@@ -169,31 +118,15 @@ struct FollowJointTrajectory {
     std::vector<std::string> multi_dof_joint_names;
     MultiDOFJointTrajectoryPoint multi_dof_desired, multi_dof_actual, multi_dof_error;
     std::int32_t multi_dof_index = 0;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("header", self.header);
-      visit("joint_names", self.joint_names);
-      visit("desired", self.desired);
-      visit("actual", self.actual);
-      visit("error", self.error);
-      visit("index", self.index);
-      visit("multi_dof_joint_names", self.multi_dof_joint_names);
-      visit("multi_dof_desired", self.multi_dof_desired);
-      visit("multi_dof_actual", self.multi_dof_actual);
-      visit("multi_dof_error", self.multi_dof_error);
-      visit("multi_dof_index", self.multi_dof_index);
-    }
+    PEDICEL_FIELDS(header, joint_names, desired, actual, error, index, multi_dof_joint_names,
+                   multi_dof_desired, multi_dof_actual, multi_dof_error, multi_dof_index)
   };
 };
 
 struct GripperCommandMessage {
   static constexpr const char* name = "control_msgs/msg/GripperCommand";
   double position = 0, max_effort = 0;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("position", self.position);
-    visit("max_effort", self.max_effort);
-  }
+  PEDICEL_FIELDS(position, max_effort)
 };
 
 struct GripperCommand {
@@ -201,34 +134,19 @@ struct GripperCommand {
   struct Goal {
     static constexpr const char* name = "control_msgs/action/GripperCommand_Goal";
     GripperCommandMessage command;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("command", self.command);
-    }
+    PEDICEL_FIELDS(command)
   };
   struct Result {
     static constexpr const char* name = "control_msgs/action/GripperCommand_Result";
     double position = 0, effort = 0;
     bool stalled = false, reached_goal = false;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("position", self.position);
-      visit("effort", self.effort);
-      visit("stalled", self.stalled);
-      visit("reached_goal", self.reached_goal);
-    }
+    PEDICEL_FIELDS(position, effort, stalled, reached_goal)
   };
   struct Feedback {
     static constexpr const char* name = "control_msgs/action/GripperCommand_Feedback";
     double position = 0, effort = 0;
     bool stalled = false, reached_goal = false;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("position", self.position);
-      visit("effort", self.effort);
-      visit("stalled", self.stalled);
-      visit("reached_goal", self.reached_goal);
-    }
+    PEDICEL_FIELDS(position, effort, stalled, reached_goal)
   };
 };
 
@@ -238,31 +156,20 @@ struct SendGoalRequest {
   static constexpr const char* name = Action::action;
   UUID goal_id;
   typename Action::Goal goal;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("goal_id", self.goal_id);
-    visit("goal", self.goal);
-  }
+  PEDICEL_FIELDS(goal_id, goal)
 };
 
 struct SendGoalResponse {
   static constexpr const char* name = "action/SendGoal_Response";
   bool accepted = false;
   Time stamp;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("accepted", self.accepted);
-    visit("stamp", self.stamp);
-  }
+  PEDICEL_FIELDS(accepted, stamp)
 };
 
 struct GetResultRequest {
   static constexpr const char* name = "action/GetResult_Request";
   UUID goal_id;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("goal_id", self.goal_id);
-  }
+  PEDICEL_FIELDS(goal_id)
 };
 
 template <class Action>
@@ -270,11 +177,7 @@ struct GetResultResponse {
   static constexpr const char* name = Action::action;
   std::int8_t status = GoalStatus::unknown;
   typename Action::Result result;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("status", self.status);
-    visit("result", self.result);
-  }
+  PEDICEL_FIELDS(status, result)
 };
 
 template <class Action>
@@ -282,11 +185,7 @@ struct FeedbackMessage {
   static constexpr const char* name = Action::action;
   UUID goal_id;
   typename Action::Feedback feedback;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("goal_id", self.goal_id);
-    visit("feedback", self.feedback);
-  }
+  PEDICEL_FIELDS(goal_id, feedback)
 };
 
 }  // namespace pedicel::ros

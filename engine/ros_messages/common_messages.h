@@ -12,22 +12,14 @@ struct Time {
   static constexpr const char* name = "builtin_interfaces/msg/Time";
   std::int32_t sec = 0;
   std::uint32_t nanosec = 0;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("sec", self.sec);
-    visit("nanosec", self.nanosec);
-  }
+  PEDICEL_FIELDS(sec, nanosec)
 };
 
 struct Duration {
   static constexpr const char* name = "builtin_interfaces/msg/Duration";
   std::int32_t sec = 0;
   std::uint32_t nanosec = 0;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("sec", self.sec);
-    visit("nanosec", self.nanosec);
-  }
+  PEDICEL_FIELDS(sec, nanosec)
 };
 
 /// Of a time or a duration, s.
@@ -51,130 +43,78 @@ struct Header {
   static constexpr const char* name = "std_msgs/msg/Header";
   Time stamp;
   std::string frame_id;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("stamp", self.stamp);
-    visit("frame_id", self.frame_id);
-  }
+  PEDICEL_FIELDS(stamp, frame_id)
 };
 
 struct String {
   static constexpr const char* name = "std_msgs/msg/String";
   std::string data;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("data", self.data);
-  }
+  PEDICEL_FIELDS(data)
 };
 
 struct ColorRGBA {
   static constexpr const char* name = "std_msgs/msg/ColorRGBA";
   float r = 0, g = 0, b = 0, a = 0;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("r", self.r);
-    visit("g", self.g);
-    visit("b", self.b);
-    visit("a", self.a);
-  }
+  PEDICEL_FIELDS(r, g, b, a)
 };
 
 struct Clock {
   static constexpr const char* name = "rosgraph_msgs/msg/Clock";
   Time clock;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("clock", self.clock);
-  }
+  PEDICEL_FIELDS(clock)
 };
 
 struct Point {
   static constexpr const char* name = "geometry_msgs/msg/Point";
   double x = 0, y = 0, z = 0;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("x", self.x);
-    visit("y", self.y);
-    visit("z", self.z);
-  }
+  PEDICEL_FIELDS(x, y, z)
 };
 
 struct Vector3 {
   static constexpr const char* name = "geometry_msgs/msg/Vector3";
   double x = 0, y = 0, z = 0;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("x", self.x);
-    visit("y", self.y);
-    visit("z", self.z);
-  }
+  PEDICEL_FIELDS(x, y, z)
 };
 
 struct Quaternion {
   static constexpr const char* name = "geometry_msgs/msg/Quaternion";
   double x = 0, y = 0, z = 0, w = 1;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("x", self.x);
-    visit("y", self.y);
-    visit("z", self.z);
-    visit("w", self.w);
-  }
+  PEDICEL_FIELDS(x, y, z, w)
 };
 
 struct PoseMessage {
   static constexpr const char* name = "geometry_msgs/msg/Pose";
   Point position;
   Quaternion orientation;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("position", self.position);
-    visit("orientation", self.orientation);
-  }
+  PEDICEL_FIELDS(position, orientation)
 };
 
 struct PoseStamped {
   static constexpr const char* name = "geometry_msgs/msg/PoseStamped";
   Header header;
   PoseMessage pose;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("pose", self.pose);
-  }
+  PEDICEL_FIELDS(header, pose)
 };
 
 struct PoseArray {
   static constexpr const char* name = "geometry_msgs/msg/PoseArray";
   Header header;
   std::vector<PoseMessage> poses;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("poses", self.poses);
-  }
+  PEDICEL_FIELDS(header, poses)
 };
 
 struct PointStamped {
   static constexpr const char* name = "geometry_msgs/msg/PointStamped";
   Header header;
   Point point;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("point", self.point);
-  }
+  PEDICEL_FIELDS(header, point)
 };
 
 struct Transform {
   static constexpr const char* name = "geometry_msgs/msg/Transform";
   Vector3 translation;
   Quaternion rotation;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("translation", self.translation);
-    visit("rotation", self.rotation);
-  }
+  PEDICEL_FIELDS(translation, rotation)
 };
 
 struct TransformStamped {
@@ -182,62 +122,38 @@ struct TransformStamped {
   Header header;
   std::string child_frame_id;
   Transform transform;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("child_frame_id", self.child_frame_id);
-    visit("transform", self.transform);
-  }
+  PEDICEL_FIELDS(header, child_frame_id, transform)
 };
 
 struct TFMessage {
   static constexpr const char* name = "tf2_msgs/msg/TFMessage";
   std::vector<TransformStamped> transforms;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("transforms", self.transforms);
-  }
+  PEDICEL_FIELDS(transforms)
 };
 
 struct Wrench {
   static constexpr const char* name = "geometry_msgs/msg/Wrench";
   Vector3 force, torque;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("force", self.force);
-    visit("torque", self.torque);
-  }
+  PEDICEL_FIELDS(force, torque)
 };
 
 struct WrenchStamped {
   static constexpr const char* name = "geometry_msgs/msg/WrenchStamped";
   Header header;
   Wrench wrench;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("wrench", self.wrench);
-  }
+  PEDICEL_FIELDS(header, wrench)
 };
 
 struct TwistMessage {
   static constexpr const char* name = "geometry_msgs/msg/Twist";
   Vector3 linear, angular;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-  }
+  PEDICEL_FIELDS(linear, angular)
 };
 
 struct Accel {
   static constexpr const char* name = "geometry_msgs/msg/Accel";
   Vector3 linear, angular;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("linear", self.linear);
-    visit("angular", self.angular);
-  }
+  PEDICEL_FIELDS(linear, angular)
 };
 
 }  // namespace pedicel::ros

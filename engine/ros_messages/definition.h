@@ -34,11 +34,31 @@ std::string field_text(const FieldDefinition& field);
 /// line of "=" and "MSG: package/Name" those of each of the others.
 std::string schema_text(const std::vector<Definition>& definitions);
 
+/// Repeats `each(x)` for each of up to 27 arguments.
+#define PEDICEL_EACH(each, ...) __VA_OPT__(PEDICEL_SCAN(PEDICEL_NEXT(each, __VA_ARGS__)))
+#define PEDICEL_NEXT(each, x, ...) each(x) __VA_OPT__(PEDICEL_LATER PEDICEL_NONE(each, __VA_ARGS__))
+#define PEDICEL_LATER() PEDICEL_NEXT
+#define PEDICEL_NONE ()
+#define PEDICEL_SCAN(...) PEDICEL_SCAN9(PEDICEL_SCAN9(PEDICEL_SCAN9(__VA_ARGS__)))
+#define PEDICEL_SCAN9(...) PEDICEL_SCAN3(PEDICEL_SCAN3(PEDICEL_SCAN3(__VA_ARGS__)))
+#define PEDICEL_SCAN3(...) PEDICEL_SCAN1(PEDICEL_SCAN1(PEDICEL_SCAN1(__VA_ARGS__)))
+#define PEDICEL_SCAN1(...) __VA_ARGS__
+#define PEDICEL_VISIT(field) visit(#field, self.field);
+
+/// Of a message whose members are called as its fields are: fields() of these, in their order.
+#define PEDICEL_FIELDS(...)                      \
+  template <class Self, class Visit>             \
+  static void fields(Self& self, Visit& visit) { \
+    PEDICEL_EACH(PEDICEL_VISIT, __VA_ARGS__)     \
+  }
+
 /// A message is a struct with its ROS name and a function that shows its fields to a visitor, in
 /// their order; everything else (text, bytes both ways, hash) comes from that:
 ///   static constexpr const char* name = "std_msgs/msg/Header";
+///   PEDICEL_FIELDS(stamp, frame_id)
+/// where a member is called otherwise:
 ///   template <class Self, class Visit> static void fields(Self& self, Visit& visit) {
-///     visit("stamp", self.stamp);
+///     visit("fields", self.point_fields);
 ///   }
 template <class T>
 concept Message = requires {

@@ -8,22 +8,14 @@ namespace pedicel::ros {
 struct UVCoordinate {
   static constexpr const char* name = "visualization_msgs/msg/UVCoordinate";
   float u = 0, v = 0;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("u", self.u);
-    visit("v", self.v);
-  }
+  PEDICEL_FIELDS(u, v)
 };
 
 struct MeshFile {
   static constexpr const char* name = "visualization_msgs/msg/MeshFile";
   std::string filename;
   std::vector<std::uint8_t> data;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("filename", self.filename);
-    visit("data", self.data);
-  }
+  PEDICEL_FIELDS(filename, data)
 };
 
 struct Marker {
@@ -47,37 +39,15 @@ struct Marker {
   std::string text, mesh_resource;
   MeshFile mesh_file;
   bool mesh_use_embedded_materials = false;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("ns", self.ns);
-    visit("id", self.id);
-    visit("type", self.type);
-    visit("action", self.action);
-    visit("pose", self.pose);
-    visit("scale", self.scale);
-    visit("color", self.color);
-    visit("lifetime", self.lifetime);
-    visit("frame_locked", self.frame_locked);
-    visit("points", self.points);
-    visit("colors", self.colors);
-    visit("texture_resource", self.texture_resource);
-    visit("texture", self.texture);
-    visit("uv_coordinates", self.uv_coordinates);
-    visit("text", self.text);
-    visit("mesh_resource", self.mesh_resource);
-    visit("mesh_file", self.mesh_file);
-    visit("mesh_use_embedded_materials", self.mesh_use_embedded_materials);
-  }
+  PEDICEL_FIELDS(header, ns, id, type, action, pose, scale, color, lifetime, frame_locked, points,
+                 colors, texture_resource, texture, uv_coordinates, text, mesh_resource, mesh_file,
+                 mesh_use_embedded_materials)
 };
 
 struct MarkerArray {
   static constexpr const char* name = "visualization_msgs/msg/MarkerArray";
   std::vector<Marker> markers;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("markers", self.markers);
-  }
+  PEDICEL_FIELDS(markers)
 };
 
 }  // namespace pedicel::ros

@@ -29,16 +29,8 @@ struct Imu {
   std::array<double, 9> angular_velocity_covariance{};
   Vector3 linear_acceleration;  // m/s2
   std::array<double, 9> linear_acceleration_covariance{};
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("orientation", self.orientation);
-    visit("orientation_covariance", self.orientation_covariance);
-    visit("angular_velocity", self.angular_velocity);
-    visit("angular_velocity_covariance", self.angular_velocity_covariance);
-    visit("linear_acceleration", self.linear_acceleration);
-    visit("linear_acceleration_covariance", self.linear_acceleration_covariance);
-  }
+  PEDICEL_FIELDS(header, orientation, orientation_covariance, angular_velocity,
+                 angular_velocity_covariance, linear_acceleration, linear_acceleration_covariance)
 };
 
 struct Image {
@@ -49,16 +41,7 @@ struct Image {
   std::uint8_t is_bigendian = 0;
   std::uint32_t step = 0;  // bytes a row
   std::vector<std::uint8_t> data;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("height", self.height);
-    visit("width", self.width);
-    visit("encoding", self.encoding);
-    visit("is_bigendian", self.is_bigendian);
-    visit("step", self.step);
-    visit("data", self.data);
-  }
+  PEDICEL_FIELDS(header, height, width, encoding, is_bigendian, step, data)
 };
 
 struct CompressedImage {
@@ -66,26 +49,14 @@ struct CompressedImage {
   Header header;
   std::string format;
   std::vector<std::uint8_t> data;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("format", self.format);
-    visit("data", self.data);
-  }
+  PEDICEL_FIELDS(header, format, data)
 };
 
 struct RegionOfInterest {
   static constexpr const char* name = "sensor_msgs/msg/RegionOfInterest";
   std::uint32_t x_offset = 0, y_offset = 0, height = 0, width = 0;
   bool do_rectify = false;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("x_offset", self.x_offset);
-    visit("y_offset", self.y_offset);
-    visit("height", self.height);
-    visit("width", self.width);
-    visit("do_rectify", self.do_rectify);
-  }
+  PEDICEL_FIELDS(x_offset, y_offset, height, width, do_rectify)
 };
 
 struct CameraInfo {
@@ -98,20 +69,7 @@ struct CameraInfo {
   std::array<double, 12> p{};
   std::uint32_t binning_x = 0, binning_y = 0;
   RegionOfInterest roi;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("height", self.height);
-    visit("width", self.width);
-    visit("distortion_model", self.distortion_model);
-    visit("d", self.d);
-    visit("k", self.k);
-    visit("r", self.r);
-    visit("p", self.p);
-    visit("binning_x", self.binning_x);
-    visit("binning_y", self.binning_y);
-    visit("roi", self.roi);
-  }
+  PEDICEL_FIELDS(header, height, width, distortion_model, d, k, r, p, binning_x, binning_y, roi)
 };
 
 struct PointField {

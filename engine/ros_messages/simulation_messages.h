@@ -16,21 +16,14 @@ struct SimulationResult {
                                 operation_failed = 4;
   std::uint8_t result = ok;
   std::string error_message;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("result", self.result);
-    visit("error_message", self.error_message);
-  }
+  PEDICEL_FIELDS(result, error_message)
 };
 
 struct SimulationState {
   static constexpr const char* name = "simulation_interfaces/msg/SimulationState";
   static constexpr std::uint8_t stopped = 0, playing = 1, paused = 2, quitting = 3;
   std::uint8_t state = stopped;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("state", self.state);
-  }
+  PEDICEL_FIELDS(state)
 };
 
 struct SimulatorFeatures {
@@ -45,44 +38,28 @@ struct SimulatorFeatures {
   std::vector<std::uint16_t> features;
   std::vector<std::string> spawn_formats;
   std::string custom_info;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("features", self.features);
-    visit("spawn_formats", self.spawn_formats);
-    visit("custom_info", self.custom_info);
-  }
+  PEDICEL_FIELDS(features, spawn_formats, custom_info)
 };
 
 struct EntityCategory {
   static constexpr const char* name = "simulation_interfaces/msg/EntityCategory";
   static constexpr std::uint8_t object = 0, robot = 1, dynamic_object = 4, static_object = 5;
   std::uint8_t category = object;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("category", self.category);
-  }
+  PEDICEL_FIELDS(category)
 };
 
 struct TagsFilter {
   static constexpr const char* name = "simulation_interfaces/msg/TagsFilter";
   std::vector<std::string> tags;
   std::uint8_t filter_mode = 0;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("tags", self.tags);
-    visit("filter_mode", self.filter_mode);
-  }
+  PEDICEL_FIELDS(tags, filter_mode)
 };
 
 struct Bounds {
   static constexpr const char* name = "simulation_interfaces/msg/Bounds";
   std::uint8_t type = 0;
   std::vector<Vector3> points;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("type", self.type);
-    visit("points", self.points);
-  }
+  PEDICEL_FIELDS(type, points)
 };
 
 struct EntityFilters {
@@ -91,13 +68,7 @@ struct EntityFilters {
   std::vector<EntityCategory> categories;
   TagsFilter tags;
   Bounds bounds;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("filter", self.filter);
-    visit("categories", self.categories);
-    visit("tags", self.tags);
-    visit("bounds", self.bounds);
-  }
+  PEDICEL_FIELDS(filter, categories, tags, bounds)
 };
 
 struct EntityState {
@@ -106,24 +77,14 @@ struct EntityState {
   PoseMessage pose;
   TwistMessage twist;
   Accel acceleration;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("header", self.header);
-    visit("pose", self.pose);
-    visit("twist", self.twist);
-    visit("acceleration", self.acceleration);
-  }
+  PEDICEL_FIELDS(header, pose, twist, acceleration)
 };
 
 /// A thing to be made: a file, or, where that is empty, its text.
 struct Resource {
   static constexpr const char* name = "simulation_interfaces/msg/Resource";
   std::string uri, resource_string;
-  template <class Self, class Visit>
-  static void fields(Self& self, Visit& visit) {
-    visit("uri", self.uri);
-    visit("resource_string", self.resource_string);
-  }
+  PEDICEL_FIELDS(uri, resource_string)
 };
 
 /// Each service: its name, its request and its response.
@@ -131,18 +92,12 @@ struct GetSimulatorFeatures {
   static constexpr const char* service = "simulation_interfaces/srv/GetSimulatorFeatures";
   struct Request : Nothing {
     static constexpr const char* name = "simulation_interfaces/srv/GetSimulatorFeatures_Request";
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("structure_needs_at_least_one_member", self.structure_needs_at_least_one_member);
-    }
+    PEDICEL_FIELDS(structure_needs_at_least_one_member)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/GetSimulatorFeatures_Response";
     SimulatorFeatures features;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("features", self.features);
-    }
+    PEDICEL_FIELDS(features)
   };
 };
 
@@ -153,18 +108,12 @@ struct ResetSimulation {
   struct Request {
     static constexpr const char* name = "simulation_interfaces/srv/ResetSimulation_Request";
     std::uint8_t scope = scope_default;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("scope", self.scope);
-    }
+    PEDICEL_FIELDS(scope)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/ResetSimulation_Response";
     SimulationResult result;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("result", self.result);
-    }
+    PEDICEL_FIELDS(result)
   };
 };
 
@@ -173,18 +122,12 @@ struct StepSimulation {
   struct Request {
     static constexpr const char* name = "simulation_interfaces/srv/StepSimulation_Request";
     std::uint64_t steps = 1;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("steps", self.steps);
-    }
+    PEDICEL_FIELDS(steps)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/StepSimulation_Response";
     SimulationResult result;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("result", self.result);
-    }
+    PEDICEL_FIELDS(result)
   };
 };
 
@@ -192,20 +135,13 @@ struct GetSimulationState {
   static constexpr const char* service = "simulation_interfaces/srv/GetSimulationState";
   struct Request : Nothing {
     static constexpr const char* name = "simulation_interfaces/srv/GetSimulationState_Request";
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("structure_needs_at_least_one_member", self.structure_needs_at_least_one_member);
-    }
+    PEDICEL_FIELDS(structure_needs_at_least_one_member)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/GetSimulationState_Response";
     SimulationState state;
     SimulationResult result;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("state", self.state);
-      visit("result", self.result);
-    }
+    PEDICEL_FIELDS(state, result)
   };
 };
 
@@ -215,18 +151,12 @@ struct SetSimulationState {
   struct Request {
     static constexpr const char* name = "simulation_interfaces/srv/SetSimulationState_Request";
     SimulationState state;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("state", self.state);
-    }
+    PEDICEL_FIELDS(state)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/SetSimulationState_Response";
     SimulationResult result;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("result", self.result);
-    }
+    PEDICEL_FIELDS(result)
   };
 };
 
@@ -235,20 +165,13 @@ struct GetEntities {
   struct Request {
     static constexpr const char* name = "simulation_interfaces/srv/GetEntities_Request";
     EntityFilters filters;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("filters", self.filters);
-    }
+    PEDICEL_FIELDS(filters)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/GetEntities_Response";
     SimulationResult result;
     std::vector<std::string> entities;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("result", self.result);
-      visit("entities", self.entities);
-    }
+    PEDICEL_FIELDS(result, entities)
   };
 };
 
@@ -257,20 +180,13 @@ struct GetEntityState {
   struct Request {
     static constexpr const char* name = "simulation_interfaces/srv/GetEntityState_Request";
     std::string entity;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("entity", self.entity);
-    }
+    PEDICEL_FIELDS(entity)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/GetEntityState_Response";
     SimulationResult result;
     EntityState state;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("result", self.result);
-      visit("state", self.state);
-    }
+    PEDICEL_FIELDS(result, state)
   };
 };
 
@@ -279,22 +195,14 @@ struct GetEntitiesStates {
   struct Request {
     static constexpr const char* name = "simulation_interfaces/srv/GetEntitiesStates_Request";
     EntityFilters filters;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("filters", self.filters);
-    }
+    PEDICEL_FIELDS(filters)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/GetEntitiesStates_Response";
     SimulationResult result;
     std::vector<std::string> entities;
     std::vector<EntityState> states;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("result", self.result);
-      visit("entities", self.entities);
-      visit("states", self.states);
-    }
+    PEDICEL_FIELDS(result, entities, states)
   };
 };
 
@@ -323,11 +231,7 @@ struct SpawnEntity {
     static constexpr const char* name = "simulation_interfaces/srv/SpawnEntity_Response";
     SimulationResult result;
     std::string entity_name;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("result", self.result);
-      visit("entity_name", self.entity_name);
-    }
+    PEDICEL_FIELDS(result, entity_name)
   };
 };
 
@@ -336,18 +240,12 @@ struct DeleteEntity {
   struct Request {
     static constexpr const char* name = "simulation_interfaces/srv/DeleteEntity_Request";
     std::string entity;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("entity", self.entity);
-    }
+    PEDICEL_FIELDS(entity)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/DeleteEntity_Response";
     SimulationResult result;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("result", self.result);
-    }
+    PEDICEL_FIELDS(result)
   };
 };
 
@@ -359,22 +257,12 @@ struct SetEntityState {
     std::string entity;
     EntityState state;
     bool set_pose = false, set_twist = false, set_acceleration = false;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("entity", self.entity);
-      visit("state", self.state);
-      visit("set_pose", self.set_pose);
-      visit("set_twist", self.set_twist);
-      visit("set_acceleration", self.set_acceleration);
-    }
+    PEDICEL_FIELDS(entity, state, set_pose, set_twist, set_acceleration)
   };
   struct Response {
     static constexpr const char* name = "simulation_interfaces/srv/SetEntityState_Response";
     SimulationResult result;
-    template <class Self, class Visit>
-    static void fields(Self& self, Visit& visit) {
-      visit("result", self.result);
-    }
+    PEDICEL_FIELDS(result)
   };
 };
 

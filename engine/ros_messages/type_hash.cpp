@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/core/joined.h"
+
 namespace pedicel::ros {
 
 namespace {
@@ -63,9 +65,7 @@ std::string field_json(const FieldDefinition& field) {
 }
 
 std::string json_of(const Definition& definition) {
-  std::string fields;
-  for (const FieldDefinition& field : definition.fields)
-    fields += (fields.empty() ? "" : ", ") + field_json(field);
+  const std::string fields = joined(definition.fields, field_json);
   return "{\"type_name\": \"" + definition.name + "\", \"fields\": [" + fields + "]}";
 }
 
@@ -89,9 +89,8 @@ std::string sha256(const std::string& bytes) {
 std::string type_hash(const std::vector<Definition>& definitions) {
   std::vector<Definition> others(definitions.begin() + 1, definitions.end());
   std::ranges::sort(others, {}, &Definition::name);
-  std::string referenced;
-  for (const Definition& other : others)
-    referenced += (referenced.empty() ? "" : ", ") + json_of(other);
+  const std::string referenced =
+      joined(others, [&](const Definition& other) { return json_of(other); });
   return "RIHS01_" + sha256("{\"type_description\": " + json_of(definitions.front()) +
                             ", \"referenced_type_descriptions\": [" + referenced + "]}");
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/csv.h"
 
 namespace pedicel::world {
@@ -116,9 +117,9 @@ ExpectationResult judge_sweep(const Expectation& expectation, std::span<const do
 }
 
 std::string to_string(const ExpectationResult& verdict) {
-  std::string values;
-  for (double value : verdict.measured)
-    values += (values.empty() ? "" : ", ") + (std::isfinite(value) ? number(value) : "nothing");
+  const std::string values = joined(verdict.measured, [&](double value) {
+    return std::isfinite(value) ? number(value) : "nothing";
+  });
   return std::string(verdict.met ? "met    " : "NOT MET") + " " + to_string(verdict.expectation) +
          ": " + (values.empty() ? "not measured" : values);
 }

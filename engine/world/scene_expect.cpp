@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "engine/core/joined.h"
 #include "engine/world/scene_sections.h"
 
 namespace pedicel::world::sections {
@@ -62,10 +63,7 @@ const MeasuredQuantity* find_quantity(const std::string& name) {
 }
 
 std::string quantity_names() {
-  std::string names;
-  for (const MeasuredQuantity& quantity : known_quantities())
-    names += (names.empty() ? "" : ", ") + std::string(quantity.name);
-  return names;
+  return joined(known_quantities(), &MeasuredQuantity::name);
 }
 
 /// Whether the quantity takes a subject, and whether it must be named.

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/yaml_words.h"
 #include "engine/world/scene_writer.h"
 #include "engine/world/settings.h"
@@ -79,8 +80,7 @@ FlowMap& FlowMap::add_pose(const Pose& pose) {
 }
 
 std::string number_list(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + io::yaml_number(value);
+  const std::string text = joined(values, io::yaml_number);
   return "[" + text + "]";
 }
 
@@ -253,9 +253,8 @@ std::string camera(const SceneCamera& camera) {
   if (camera.follow.kind != Anchor::Kind::none) map.add("follow", anchor(camera.follow));
   if (camera.size != plain_camera.size)
     map.add("size", number_list({double(camera.size[0]), double(camera.size[1])}));
-  std::string sensors;
-  for (const Sensor sensor : camera.sensors)
-    sensors += (sensors.empty() ? "" : ", ") + std::string(name_of(sensor));
+  const std::string sensors =
+      joined(camera.sensors, [&](const Sensor sensor) { return name_of(sensor); });
   if (!sensors.empty()) map.add("sensors", "[" + sensors + "]");
   map.add_unless("rate", camera.rate, plain_camera.rate);
   add_described(map, "noise", camera.noise, {});
@@ -294,9 +293,7 @@ std::string varied(const VariedNumber& number) {
     if (std::isfinite(number.high)) map.add("high", number.high);
     return map.text();
   }
-  std::string values;
-  for (const std::string& value : number.values)
-    values += (values.empty() ? "" : ", ") + plain(value);
+  const std::string values = joined(number.values, plain);
   return map.add("values", "[" + values + "]").text();
 }
 

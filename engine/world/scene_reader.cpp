@@ -51,14 +51,8 @@ io::KeyList make_scene_list() {
   io::KeyList keys{
       "scene",
       "a scene",
-      {{.name = "format",
-        .type = KeyType::word,
-        .words = {"pedicel-scene"},
-        .sentence = "says what the file is"},
-       {.name = "version",
-        .type = KeyType::whole,
-        .bounds = {1, 1},
-        .sentence = "version of the format"},
+      {io::format_key("pedicel-scene"),
+       io::version_key(),
        {.name = "name",
         .type = KeyType::text,
         .otherwise = Told{"the file's name"},
@@ -320,6 +314,13 @@ std::vector<const io::KeyList*> scene_keys() {
                            sections::expectation_keys(), variation_keys()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
+}
+
+const io::Key& scene_key(std::string_view map, std::string_view key) {
+  const auto all = scene_keys();
+  const auto list = std::ranges::find(all, map, [](const io::KeyList* one) { return one->name; });
+  PEDICEL_ASSERT(list != all.end() && (*list)->find(key));
+  return *(*list)->find(key);
 }
 
 std::optional<Scene> read_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {

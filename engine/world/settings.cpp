@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/csv.h"
 #include "engine/world/place_settings.h"
+#include "engine/world/scene_sections.h"
 
 namespace pedicel::world {
 
@@ -26,10 +29,8 @@ void apply_word(const Setting& setting, const std::string& section, const WordSe
     *word.value = static_cast<int>(found - word.words.begin());
     return;
   }
-  std::string list;
-  for (const std::string& allowed : word.words) list += (list.empty() ? "" : ", ") + allowed;
   diagnostics.error(setting.where, section + "." + setting.key + " is \"" + setting.text +
-                                       "\", expected one of: " + list);
+                                       "\", expected one of: " + joined(word.words));
 }
 
 /// The number that a flag or a number is.
@@ -149,6 +150,16 @@ std::optional<double> to_number(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), last, value);
   if (error != std::errc{} || end != last || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::array<int, 2> to_picture_size(const std::string& text, const std::string& asked) {
+  std::array<int, 2> size{};
+  char rest = 0;
+  const io::Bounds& sides = sections::picture_sizes;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size[0], &size[1], &rest) != 2 ||
+      !io::within(size[0], sides) || !io::within(size[1], sides))
+    throw UsageError(asked + " " + text + ": expected WxH in pixels, 16 to 8192 each (1280x720)");
+  return size;
 }
 
 void apply_settings(const std::vector<Setting>& settings, const std::string& section,

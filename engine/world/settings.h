@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +30,9 @@ void apply_settings(const std::vector<Setting>& settings, const std::string& sec
 
 /// The number that a text is, as it is written in our files; nothing where it is none.
 std::optional<double> to_number(const std::string& text);
+
+/// Width and height of a text as "1280x720", px. Throws UsageError, where `asked` names it.
+std::array<int, 2> to_picture_size(const std::string& text, const std::string& asked);
 
 /// Hz, that a video may have, wherever that is said.
 inline constexpr io::Bounds video_rates{1.0, 240.0};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "engine/io/csv.h"
 #include "plugins/plant/plant_edit_parts.h"
 #include "plugins/plant/plant_graph.h"
@@ -71,8 +72,7 @@ void rename_curve(PlantFile& plant, const std::string& name, const std::string& 
 int find_stem(const PlantFile& plant, const std::string& name) {
   const int index = plant.curve_index(name);
   if (index >= 0) return index;
-  std::string names;
-  for (const PlantCurve& curve : plant.curves) names += (names.empty() ? "" : ", ") + curve.name;
+  const std::string names = joined(plant.curves, &PlantCurve::name);
   throw UsageError("no stem \"" + name + "\", expected " +
                    (names.empty() ? "one that was drawn before" : "one of: " + names));
 }

@@ -12,7 +12,7 @@
 namespace pedicel::plant {
 
 /// x,y,z,parentid,vid,edgetype,diameter_m (m, P; "<" follows, "+" branches): what
-/// parse_skeleton_csv() reads. A row a control point, in the order of the tree, and more where a
+/// read_plant_source() reads. A row a control point, in the order of the tree, and more where a
 /// smooth curve would be farther than 0.2 mm from the chord; a branch begins at a row of the
 /// parent's centre line. Curves that reach nothing are left out.
 std::string skeleton_text(const PlantFile& plant);

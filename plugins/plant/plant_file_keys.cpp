@@ -67,14 +67,8 @@ Key part_key(const char* name, KeyType type, const char* otherwise, const char* 
 
 std::vector<Key> keys_of_plant() {
   std::vector<Key> keys = {
-      {.name = "format",
-       .type = KeyType::word,
-       .words = {"pedicel-plant"},
-       .sentence = "says what the file is"},
-      {.name = "version",
-       .type = KeyType::whole,
-       .bounds = {1, 1},
-       .sentence = "version of the format"},
+      io::format_key("pedicel-plant"),
+      io::version_key(),
       {.name = "name", .type = KeyType::text, .sentence = "name of the plant"}};
   add_described<PlantFile>(keys, plant_keys);
   const std::vector<Key> more = {

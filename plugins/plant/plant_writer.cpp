@@ -1,5 +1,6 @@
 #include <type_traits>
 
+#include "engine/core/joined.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/yaml_words.h"
 #include "plugins/plant/plant_file.h"
@@ -17,8 +18,7 @@ std::string word(const std::string& text) {
 }
 
 std::string list(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + exact(value);
+  const std::string text = joined(values, exact);
   return "[" + text + "]";
 }
 
@@ -115,8 +115,7 @@ FlowMap material_map(const MaterialValues& material) {
 std::string curve_text(const PlantCurve& curve) {
   std::string text = "  - name: " + word(curve.name) + "\n";
   text += lines_of("    ", curve_keys, curve);
-  std::string points;
-  for (const Vec3& point : curve.points) points += (points.empty() ? "" : ", ") + vector(point);
+  const std::string points = joined(curve.points, vector);
   text += "    points: [" + points + "]\n";
   if (!curve.radius.empty()) text += "    radius: " + scalar_or_list(curve.radius) + "\n";
   FlowMap section;

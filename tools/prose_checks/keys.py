@@ -57,7 +57,7 @@ RULES = [
          "engine/world/scene_common.cpp", "engine/world/scene_plants.cpp",
          "engine/world/scene_robot.cpp", "engine/world/scene_views.cpp",
          "engine/world/scene_sensors.cpp", "engine/world/variation.cpp",
-         "engine/world/scene_expect.cpp", "engine/robot/waypoint_reader.cpp"), READER, 90),
+         "engine/world/scene_expect.cpp"), READER, 90),
     Rule("experiment.md", ("plugins/discrepancy/data/experiment_reader.cpp",
          "plugins/discrepancy/data/drive_reader.cpp"), READER, 33, end=r"^  }$"),
     Rule("scene_experiment.md", ("plugins/discrepancy/scene_files/scene_experiment_reader.cpp",), (*READER, DEVIATION),

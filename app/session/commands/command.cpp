@@ -1,5 +1,7 @@
 #include "app/session/commands/command.h"
 
+#include <algorithm>
+
 #include "app/session/commands/command_line.h"
 #include "app/session/commands/command_table.h"
 #include "engine/core/check.h"
@@ -65,6 +67,11 @@ const std::string& Command::word(const std::string& argument) const {
 }
 std::string Command::word_or(const std::string& argument, const std::string& value) const {
   return has(argument) ? word(argument) : value;
+}
+int Command::choice(const std::string& argument) const {
+  const auto& words = find_command(verb_)->find(argument)->words;
+  return has(argument) ? static_cast<int>(std::ranges::find(words, word(argument)) - words.begin())
+                       : 0;
 }
 const Vec3& Command::point(const std::string& argument) const {
   return held<Vec3>(arguments_, argument);

@@ -47,6 +47,8 @@ class Command {
   int whole_or(const std::string& argument, int value) const;
   const std::string& word(const std::string& argument) const;
   std::string word_or(const std::string& argument, const std::string& value) const;
+  /// The number of the word among those of its argument; 0 where it is left out.
+  int choice(const std::string& argument) const;
   const Vec3& point(const std::string& argument) const;
   const std::vector<double>& numbers(const std::string& argument) const;
   const std::vector<Vec3>& points(const std::string& argument) const;

@@ -5,11 +5,12 @@
 #include "app/session/document/document.h"
 #include "app/session/document/settings_check.h"
 #include "engine/core/check.h"
+#include "engine/io/thing_bounds.h"
 #include "plugins/coupling/coupling_settings.h"
 #include "plugins/simulation/plants/plant_overrides.h"
 #include "plugins/simulation/plants/rod_options.h"
 
-/// Plants as a whole, settings and waypoints as commands.
+/// Plants as a whole and settings as commands.
 namespace pedicel::app {
 
 namespace {
@@ -77,64 +78,21 @@ void unset(Document& document, const Command& c) {
     throw UsageError("\"" + c.word("key") + "\" is as the files say already");
 }
 
-void add_waypoint(Document& document, const Command& c) {
-  const RobotWaypoint waypoint{c.number("time"), c.numbers("joints")};
-  const auto place =
-      std::find_if(document.waypoints.begin(), document.waypoints.end(),
-                   [&](const RobotWaypoint& one) { return one.time >= waypoint.time; });
-  if (waypoint.time < 0.0) throw UsageError("a time before 0, expected s from 0 on");
-  if (place != document.waypoints.end() && place->time == waypoint.time)
-    *place = waypoint;
-  else
-    document.waypoints.insert(place, waypoint);
-}
-
-void delete_waypoint(Document& document, const Command& c) {
-  const int index = c.whole("index"), count = static_cast<int>(document.waypoints.size());
-  if (index < 0 || index >= count)
-    throw UsageError("waypoint " + std::to_string(index) + ", expected one of " +
-                     std::to_string(count) + " from 0 on");
-  document.waypoints.erase(document.waypoints.begin() + index);
-}
-
-void set_waypoints(Document& document, const Command& c) {
-  const std::vector<double>&times = c.numbers("times"), &joints = c.numbers("joints");
-  const std::size_t each = times.empty() ? 0 : joints.size() / times.size();
-  if (times.empty() || each == 0 || each * times.size() != joints.size())
-    throw UsageError(std::to_string(joints.size()) + " joint values for " +
-                     std::to_string(times.size()) + " times, expected as many for each of them");
-  std::vector<RobotWaypoint> waypoints;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (!(times[i] >= 0.0) || (i > 0 && !(times[i] > times[i - 1])))
-      throw UsageError("times, expected s from 0 on that increase");
-    const auto row = joints.begin() + static_cast<std::ptrdiff_t>(i * each);
-    waypoints.push_back({times[i], {row, row + static_cast<std::ptrdiff_t>(each)}});
-  }
-  document.waypoints = std::move(waypoints);
-}
-
-void clear_waypoints(Document& document, const Command&) {
-  document.waypoints.clear();
-}
-
 }  // namespace
 
 std::vector<CommandDescription> document_commands() {
-  const Scope d = Scope::document;
-  const ArgumentDescription position{"position", Kind::point, false,
-                                     "m, in the world (the origin)"};
+  const ArgumentDescription position{"position", Kind::point, false, "m, in the world (the origin)",
+                                     io::place_bounds};
   const ArgumentDescription turn{"turn", Kind::numbers, false,
                                  "x,y,z,w, or roll,pitch,yaw in rad (none)"};
   const ArgumentDescription file{"file", Kind::text, false,
                                  "plant file that it came from and is saved to (none)"};
   return {
       {"new plant",
-       d,
        {plant_name, position, turn},
        "Adds a plant without stems, to draw.",
        new_plant},
       {"add plant",
-       d,
        {plant_name,
         {"text", Kind::text, true, "of a plant file, lines ended by \\n"},
         position,
@@ -143,7 +101,6 @@ std::vector<CommandDescription> document_commands() {
        "Adds a plant as a plant file says it.",
        add_plant},
       {"set plant",
-       d,
        {plant_name,
         {"text", Kind::text, true, "of a plant file, lines ended by \\n"},
         position,
@@ -152,34 +109,14 @@ std::vector<CommandDescription> document_commands() {
        "Makes a plant what a plant file says; adds it where it is new.",
        set_plant},
       {"set",
-       d,
        {{"key", Kind::word, true, "rods.KEY, coupling.KEY, plants.NAME.KEY, dt, ..."},
         {"value", Kind::text, true, "of the key"}},
        "Sets a described number or word of the scene, as --set does.",
        set},
       {"unset",
-       d,
        {{"key", Kind::word, true, "that was set"}},
        "Sets a number back to what the files say.",
        unset},
-      {"add waypoint",
-       d,
-       {{"time", Kind::number, true, "s after the program's start"},
-        {"joints", Kind::numbers, true, "rad or m, one a joint"}},
-       "Records where the robot is to be.",
-       add_waypoint},
-      {"delete waypoint",
-       d,
-       {{"index", Kind::whole, true, "from 0"}},
-       "Takes a waypoint away.",
-       delete_waypoint},
-      {"set waypoints",
-       d,
-       {{"times", Kind::numbers, true, "s after the program's start"},
-        {"joints", Kind::numbers, true, "rad or m, one a joint, time after time"}},
-       "Records other waypoints in place of those there are.",
-       set_waypoints},
-      {"clear waypoints", d, {}, "Takes all waypoints away.", clear_waypoints},
   };
 }
 

@@ -39,37 +39,10 @@ void set_scene_effects(Document& document, const Command& c) {
   document.edit_scene().effects = std::move(effects);
 }
 
-Result open_measured(Session& session, const Command& c) {
-  return session.measured().open(c.word("folder"));
-}
-
-Result cancel_reading(Session& session, const Command&) {
-  session.measured().cancel_reading();
-  return {};
-}
-
-Result close_measured(Session& session, const Command&) {
-  session.measured().close();
-  return {};
-}
-
-Result begin_diagnosis(Session& session, const Command& c) {
-  return session.measured().diagnose(c.whole_or("threads", 0),
-                                     static_cast<std::uint64_t>(c.whole_or("seed", 1)));
-}
-
 Result cancel_diagnosis(Session& session, const Command&) {
   session.measured().data().cancel_diagnosis();
   session.measured().scene().cancel_diagnosis();
   return {};
-}
-
-Result accept_diagnosis(Session& session, const Command&) {
-  return session.measured().accept_diagnosis();
-}
-
-Result write_diagnosis(Session& session, const Command& c) {
-  return session.measured().write_report(c.word("folder"));
 }
 
 }  // namespace
@@ -119,46 +92,52 @@ std::optional<std::vector<plant::Effect>> parse_effects(const std::string& text,
 }
 
 std::vector<CommandDescription> measured_commands() {
-  const Scope s = Scope::session;
   return {
       {"set effects",
-       Scope::document,
        {{"plant", Kind::word, true, "name of the plant in the scene"},
         {"text", Kind::text, true,
          "as in a plant file: [{name: base_compliance, stiffness: 0.8}]"}},
        "Gives a plant these model extensions in place of the ones it has.",
        set_effects},
       {"set scene effects",
-       Scope::document,
        {{"text", Kind::text, true, "as in a scene file: [{name: NAME, ...}]"}},
        "Gives the scene these effects of contact, arm, sensors and plants in place of its own.",
        set_scene_effects},
       {"open experiment",
-       s,
        {{"folder", Kind::text, true, "path of the experiment"}},
        "Opens data measured at a plant or with a robot in a scene, and simulates them as the files "
        "say.",
-       open_measured},
-      {"cancel reading", s, {}, "Drops the experiment that is being read.", cancel_reading},
-      {"close experiment", s, {}, "Leaves the measured data.", close_measured},
+       [](Session& session, const Command& c) {
+         return session.measured().open(c.word("folder"));
+       }},
+      {"cancel reading",
+       {},
+       "Drops the experiment that is being read.",
+       [](Session& session, const Command&) { session.measured().cancel_reading(); }},
+      {"close experiment",
+       {},
+       "Leaves the measured data.",
+       [](Session& session, const Command&) { session.measured().close(); }},
       {"diagnose",
-       s,
        {{"threads", Kind::whole, false, "that work on it (all cores but one)"},
         {"seed", Kind::whole, false, "of the bootstrap (1)"}},
        "Begins to find out what the simulation of the measured data gets wrong.",
-       begin_diagnosis},
-      {"cancel diagnosis", s, {}, "Ends a diagnosis without a result.", cancel_diagnosis},
+       [](Session& session, const Command& c) {
+         return session.measured().diagnose(c.whole_or("threads", 0),
+                                            static_cast<std::uint64_t>(c.whole_or("seed", 1)));
+       }},
+      {"cancel diagnosis", {}, "Ends a diagnosis without a result.", cancel_diagnosis},
       {"accept diagnosis",
-       s,
        {},
        "Gives the plant or the scene the effects that the diagnosis found; undo takes them away.",
-       accept_diagnosis},
+       [](Session& session, const Command&) { return session.measured().accept_diagnosis(); }},
       {"write report",
-       s,
        {{"folder", Kind::text, true, "path"}},
        "Writes the diagnosis as report.html, verdict.json and extended.plant.yaml or "
        "extended.scene.yaml.",
-       write_diagnosis},
+       [](Session& session, const Command& c) {
+         return session.measured().write_report(c.word("folder"));
+       }},
   };
 }
 

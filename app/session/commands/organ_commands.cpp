@@ -1,7 +1,6 @@
 #include "app/session/commands/command_table.h"
 #include "app/session/document/document.h"
 #include "app/session/document/effective_plant.h"
-#include "engine/core/check.h"
 #include "engine/io/csv.h"
 #include "plugins/plant/organ_edit.h"
 #include "plugins/plant/plant_edit.h"
@@ -79,116 +78,66 @@ void add_leaf(Document& document, const Command& c) {
   plant::add_leaf(edited(document, c), std::move(leaf));
 }
 
-void move_organ(Document& document, const Command& c) {
-  plant::place_organ(edited(document, c), c.word("name"), c.word("stem"), c.number("at"));
-}
-
-void delete_organ(Document& document, const Command& c) {
-  plant::remove_organ(edited(document, c), c.word("name"));
-}
-
-void set_organ(Document& document, const Command& c) {
-  plant::set_organ(edited(document, c), c.word("name"), c.word("key"), c.number("value"));
-}
-
-void turn_leaf(Document& document, const Command& c) {
-  plant::turn_leaf(edited(document, c), c.word("name"), c.point("normal"),
-                   c.has("direction") ? c.point("direction") : Vec3(Vec3::Zero()));
-}
-
-void add_mass(Document& document, const Command& c) {
-  plant::add_mass(edited(document, c), c.word("stem"), c.number("at"), c.number("mass"));
-}
-
-void delete_mass(Document& document, const Command& c) {
-  plant::remove_mass(edited(document, c), c.whole("index"));
-}
-
-void add_support(Document& document, const Command& c) {
-  plant::add_support(edited(document, c), c.word("stem"), c.number("at"));
-}
-
-void delete_support(Document& document, const Command& c) {
-  plant::remove_support(edited(document, c), c.whole("index"));
-}
-
-void set_material(Document& document, const Command& c) {
-  plant::set_material(edited(document, c), c.word_or("stem", ""), c.word("key"), c.number("value"));
-}
-
-void keep_one(Document& document, const Command& c) {
-  keep_setting(document, c.word("key"));
-}
-
-void set_sampling(Document& document, const Command& c) {
-  plant::set_sampling(edited(document, c), c.word("key"), c.number("value"));
-}
-
-void set_shape(Document& document, const Command& c) {
-  const std::string& word = c.word("shape");
-  if (word != "drawn" && word != "rest")
-    throw UsageError("shape \"" + word + "\", expected drawn or rest");
-  edited(document, c).shape = word == "rest" ? plant::Shape::rest : plant::Shape::drawn;
-}
-
-void set_look(Document& document, const Command& c) {
-  const std::string& word = c.word("look");
-  if (word != "tomato" && word != "apple")
-    throw UsageError("look \"" + word + "\", expected tomato or apple");
-  edited(document, c).look = word == "apple" ? plant::Look::apple : plant::Look::tomato;
-}
-
-void set_root(Document& document, const Command& c) {
-  edited(document, c).root = c.point("to");
-}
-
 const ArgumentDescription index_in_file{"index", Kind::whole, true, "number in the file, from 0"};
 
 std::vector<CommandDescription> plant_value_commands() {
-  const Scope d = Scope::document;
   return {
       {"set material",
-       d,
        {plant_name,
         {"key", Kind::word, true, names_with_units(plant::material_keys)},
         {"value", Kind::number, true, "of the key; 0 takes a stem's own away"},
         {"stem", Kind::word, false, "one stem; left out: the plant's default"}},
        "Sets a constant of the plant's material, or of one stem's.",
-       set_material},
+       [](Document& document, const Command& c) {
+         plant::set_material(edited(document, c), c.word_or("stem", ""), c.word("key"),
+                             c.number("value"));
+       }},
       {"keep setting",
-       d,
        {{"key", Kind::word, true, "of a plant, that was set: plants.NAME.KEY, or KEY of all"}},
        "Writes one setting into the plants that it is about, so that it is no setting any more.",
-       keep_one},
+       [](Document& document, const Command& c) { keep_setting(document, c.word("key")); }},
       {"set sampling",
-       d,
        {plant_name,
         {"key", Kind::word, true, plant::number_names(plant::sampling_keys, " or ")},
         {"value", Kind::number, true, "m"}},
        "Sets how near ends are joined, or how far nodes lie apart.",
-       set_sampling},
+       [](Document& document, const Command& c) {
+         plant::set_sampling(edited(document, c), c.word("key"), c.number("value"));
+       }},
       {"set shape",
-       d,
-       {plant_name, {"shape", Kind::word, true, "drawn or rest"}},
+       {plant_name,
+        {"shape",
+         Kind::word,
+         true,
+         "drawn or rest",
+         {},
+         {std::begin(plant::shape_words), std::end(plant::shape_words)}}},
        "Whether the drawing is how the plant hangs, or its unloaded shape.",
-       set_shape},
+       [](Document& document, const Command& c) {
+         edited(document, c).shape = static_cast<plant::Shape>(c.choice("shape"));
+       }},
       {"set plant look",
-       d,
-       {plant_name, {"look", Kind::word, true, "tomato or apple"}},
+       {plant_name,
+        {"look",
+         Kind::word,
+         true,
+         "tomato or apple",
+         {},
+         {std::begin(plant::look_words), std::end(plant::look_words)}}},
        "What the plant is drawn as; it changes no motion.",
-       set_look},
+       [](Document& document, const Command& c) {
+         edited(document, c).look = static_cast<plant::Look>(c.choice("look"));
+       }},
       {"set root",
-       d,
        {plant_name, {"to", Kind::point, true, "m, in the plant's frame"}},
        "Where the plant is clamped.",
-       set_root},
+       [](Document& document, const Command& c) { edited(document, c).root = c.point("to"); }},
   };
 }
 
 }  // namespace
 
 std::vector<CommandDescription> organ_commands() {
-  const Scope d = Scope::document;
   std::vector<ArgumentDescription> of_fruit{plant_name, organ_name, stem_name, place};
   add_number_arguments(of_fruit, plant::fruit_keys);
   add_number_arguments(of_fruit, plant::detach_keys);
@@ -198,16 +147,21 @@ std::vector<CommandDescription> organ_commands() {
   of_leaf.push_back({"normal", Kind::point, false, "the way its upper face looks (up)"});
   of_leaf.push_back({"direction", Kind::point, false, "the way its midrib points"});
   std::vector<CommandDescription> table = {
-      {"add fruit", d, of_fruit, "Hangs a fruit on a stem.", add_fruit},
-      {"add leaf", d, of_leaf, "Puts a leaf on a stem.", add_leaf},
+      {"add fruit", of_fruit, "Hangs a fruit on a stem.", add_fruit},
+      {"add leaf", of_leaf, "Puts a leaf on a stem.", add_leaf},
       {"move organ",
-       d,
        {plant_name, organ_name, stem_name, place},
        "Moves a fruit or leaf along its stem, or to another.",
-       move_organ},
-      {"delete organ", d, {plant_name, organ_name}, "Takes a fruit or leaf away.", delete_organ},
+       [](Document& document, const Command& c) {
+         plant::place_organ(edited(document, c), c.word("name"), c.word("stem"), c.number("at"));
+       }},
+      {"delete organ",
+       {plant_name, organ_name},
+       "Takes a fruit or leaf away.",
+       [](Document& document, const Command& c) {
+         plant::remove_organ(edited(document, c), c.word("name"));
+       }},
       {"set organ",
-       d,
        {plant_name,
         organ_name,
         {"key", Kind::word, true,
@@ -215,23 +169,43 @@ std::vector<CommandDescription> organ_commands() {
              " of a fruit; " + plant::number_names(plant::leaf_keys) + " of a leaf"},
         {"value", Kind::number, true, "of the key; a threshold of 0 is none"}},
        "Sets a number of a fruit or leaf.",
-       set_organ},
+       [](Document& document, const Command& c) {
+         plant::set_organ(edited(document, c), c.word("name"), c.word("key"), c.number("value"));
+       }},
       {"turn leaf",
-       d,
        {plant_name,
         organ_name,
         {"normal", Kind::point, true, "the way its upper face looks"},
         {"direction", Kind::point, false, "the way its midrib points; left out: by itself"}},
        "Turns a leaf.",
-       turn_leaf},
+       [](Document& document, const Command& c) {
+         plant::turn_leaf(edited(document, c), c.word("name"), c.point("normal"),
+                          c.has("direction") ? c.point("direction") : Vec3(Vec3::Zero()));
+       }},
       {"add mass",
-       d,
        {plant_name, stem_name, place, {"mass", Kind::number, true, "kg"}},
        "Fixes a point mass to a stem.",
-       add_mass},
-      {"delete mass", d, {plant_name, index_in_file}, "Takes a point mass away.", delete_mass},
-      {"add support", d, {plant_name, stem_name, place}, "Clamps a place of a stem.", add_support},
-      {"delete support", d, {plant_name, index_in_file}, "Takes a clamp away.", delete_support},
+       [](Document& document, const Command& c) {
+         plant::add_mass(edited(document, c), c.word("stem"), c.number("at"), c.number("mass"));
+       }},
+      {"delete mass",
+       {plant_name, index_in_file},
+       "Takes a point mass away.",
+       [](Document& document, const Command& c) {
+         plant::remove_mass(edited(document, c), c.whole("index"));
+       }},
+      {"add support",
+       {plant_name, stem_name, place},
+       "Clamps a place of a stem.",
+       [](Document& document, const Command& c) {
+         plant::add_support(edited(document, c), c.word("stem"), c.number("at"));
+       }},
+      {"delete support",
+       {plant_name, index_in_file},
+       "Takes a clamp away.",
+       [](Document& document, const Command& c) {
+         plant::remove_support(edited(document, c), c.whole("index"));
+       }},
   };
   for (const CommandDescription& one : plant_value_commands()) table.push_back(one);
   return table;

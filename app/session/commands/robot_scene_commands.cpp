@@ -1,9 +1,13 @@
+#include <algorithm>
+
 #include "app/session/commands/command_table.h"
 #include "app/session/commands/scene_things.h"
 #include "app/session/session.h"
 #include "app/session/session_robot.h"
 #include "engine/core/check.h"
-#include "engine/io/csv.h"
+#include "engine/io/key.h"
+#include "engine/io/thing_bounds.h"
+#include "engine/world/scene_reader.h"
 
 /// The robot as a part of the scene, as commands.
 namespace pedicel::app {
@@ -40,14 +44,6 @@ void add_robot(Document& document, const Command& c) {
   document.edit_scene().robot = std::move(robot);
 }
 
-void move_robot(Document& document, const Command& c) {
-  robot_of(document).base.position = c.point("to");
-}
-
-void turn_robot(Document& document, const Command& c) {
-  robot_of(document).base.rotation = read_turn(c.numbers("to"));
-}
-
 void rename_robot(Document& document, const Command& c) {
   check_name(c.word("to"));
   robot_of(document).name = c.word("to");
@@ -59,16 +55,12 @@ void set_robot(Document& document, const Command& c) {
     robot_of(document).tool = value;
   else if (key == "gripper")
     robot_of(document).gripper = value;
-  else if (key == "control" && (value == "position" || value == "velocity" || value == "torque"))
+  else if (key == "control" && std::ranges::count(world::scene_key("robot", key).words, value))
     robot_of(document).control = value;
   else
     throw UsageError("\"" + key + " " + value +
                      "\", expected tool LINK, gripper JOINT or control position, velocity or "
                      "torque");
-}
-
-void set_start(Document& document, const Command& c) {
-  robot_of(document).joints[c.word("joint")] = c.number("value");
 }
 
 void delete_robot(Document& document, const Command&) {
@@ -95,14 +87,13 @@ Command complete_robot(Session& session, const Command& c) {
 }  // namespace
 
 std::vector<CommandDescription> robot_scene_commands() {
-  const Scope d = Scope::document;
   return {
       {"add robot",
-       d,
        {{"file", Kind::text, true,
          "path of a URDF, or the name of one that comes with the program"},
         {"name", Kind::word, false, "in the scene (robot)"},
-        {"position", Kind::point, false, "m, of its base (where it reaches the plants)"},
+        {"position", Kind::point, false, "m, of its base (where it reaches the plants)",
+         io::place_bounds},
         {"turn", Kind::numbers, false, "x,y,z,w, or roll,pitch,yaw in rad (towards the plants)"},
         {"tool", Kind::word, false, "link that is led (the last one, or one that is named so)"},
         {"gripper", Kind::word, false, "joint (one that is named so)"}},
@@ -110,30 +101,31 @@ std::vector<CommandDescription> robot_scene_commands() {
        add_robot,
        complete_robot},
       {"move robot",
-       d,
-       {{"to", Kind::point, true, "m, in the world: its base"}},
+       {{"to", Kind::point, true, "m, in the world: its base", io::place_bounds}},
        "Puts the robot elsewhere.",
-       move_robot},
+       [](Document& document, const Command& c) {
+         robot_of(document).base.position = c.point("to");
+       }},
       {"turn robot",
-       d,
        {{"to", Kind::numbers, true, "x,y,z,w, or roll,pitch,yaw in rad, in the world"}},
        "Turns the robot's base.",
-       turn_robot},
-      {"rename robot", d, {{"to", Kind::word, true, "its new name"}}, "Names it.", rename_robot},
+       [](Document& document, const Command& c) {
+         robot_of(document).base.rotation = read_turn(c.numbers("to"));
+       }},
+      {"rename robot", {{"to", Kind::word, true, "its new name"}}, "Names it.", rename_robot},
       {"set robot",
-       d,
        {{"key", Kind::word, true, "tool, gripper or control"},
         {"value", Kind::text, true, "a link, a joint; position, velocity or torque"}},
        "Says which link is led, which joint grips, and how the joints are driven.",
        set_robot},
       {"set start",
-       d,
        {{"joint", Kind::word, true, "of the robot"}, {"value", Kind::number, true, "rad or m"}},
        "Sets where a joint begins.",
-       set_start},
-      {"delete robot", d, {}, "Takes the robot out of the scene.", delete_robot},
+       [](Document& document, const Command& c) {
+         robot_of(document).joints[c.word("joint")] = c.number("value");
+       }},
+      {"delete robot", {}, "Takes the robot out of the scene.", delete_robot},
       {"clear program",
-       d,
        {},
        "Takes the robot's program (waypoints of the scene, trajectory) away.",
        clear_program},

@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/diagnostics.h"
-#include "engine/io/thing_bounds.h"
+#include "engine/core/joined.h"
 
 namespace pedicel::app {
 
@@ -42,8 +42,7 @@ std::size_t index_of(const Document& document, ThingKind kind, const std::string
   const std::vector<std::string> names = names_of(document, kind);
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  std::string all;
-  for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
+  const std::string all = joined(names);
   const std::string word = word_of(kind);
   throw UsageError("no " + word + " \"" + name + "\", expected " +
                    (all.empty() ? "one to be added before" : "one of: " + all));
@@ -109,15 +108,8 @@ std::vector<double> turn_numbers(const Quat& turn) {
   return {turn.x(), turn.y(), turn.z(), turn.w()};
 }
 
-Vec3 read_place(const Command& command, const std::string& name) {
-  const Vec3 place = command.point(name);
-  if (!(place.cwiseAbs().maxCoeff() <= io::place_bounds.maximum))
-    throw UsageError(name + ", expected m, each " + io::bounds_text(io::place_bounds));
-  return place;
-}
-
 Pose read_pose(const Command& command, Pose pose) {
-  if (command.has("position")) pose.position = read_place(command, "position");
+  if (command.has("position")) pose.position = command.point("position");
   if (command.has("turn")) pose.rotation = read_turn(command.numbers("turn"));
   return pose;
 }

@@ -20,9 +20,6 @@ std::string free_name(const Document& document, ThingKind kind, const std::strin
 /// "plant", "body", "camera".
 const char* word_of(ThingKind kind);
 
-/// A point of a command in m. Throws UsageError where a coordinate is not within io::place_bounds.
-Vec3 read_place(const Command& command, const std::string& name);
-
 /// x,y,z,w, or roll,pitch,yaw (rad, about the world's X, then Y, then Z, as in URDF). As a file
 /// reads it back, to the last bit. Throws UsageError.
 Quat read_turn(const std::vector<double>& numbers);

@@ -66,22 +66,6 @@ std::optional<double> measure(const std::string& name, const Document& document,
   return value_at(series, now.time);
 }
 
-Result undo_last(Session& session, const Command&) {
-  return session.undo();
-}
-
-Result redo_next(Session& session, const Command&) {
-  return session.redo();
-}
-
-Result keep_settings(Session& session, const Command&) {
-  return session.tuning().keep();
-}
-
-Result discard_settings(Session& session, const Command&) {
-  return session.tuning().discard();
-}
-
 Result expect_quantity(Session& session, const Command& c) {
   const std::string& name = c.word("quantity");
   const auto value =
@@ -104,26 +88,34 @@ Result tell_commands(Session&, const Command& c) {
 }  // namespace
 
 std::vector<CommandDescription> history_commands() {
-  const Scope s = Scope::session;
   return {
-      {"undo", s, {}, "Takes back the last change.", undo_last},
-      {"redo", s, {}, "Does it again.", redo_next},
+      {"undo",
+       {},
+       "Takes back the last change.",
+       [](Session& session, const Command&) { return session.undo(); }},
+      {"redo",
+       {},
+       "Does it again.",
+       [](Session& session, const Command&) { return session.redo(); }},
   };
 }
 
 std::vector<CommandDescription> setting_commands() {
-  const Scope s = Scope::session;
   return {
-      {"keep", s, {}, "Writes changed plant parameters into the plants.", keep_settings},
-      {"discard", s, {}, "Sets changed parameters back.", discard_settings},
+      {"keep",
+       {},
+       "Writes changed plant parameters into the plants.",
+       [](Session& session, const Command&) { return session.tuning().keep(); }},
+      {"discard",
+       {},
+       "Sets changed parameters back.",
+       [](Session& session, const Command&) { return session.tuning().discard(); }},
   };
 }
 
 std::vector<CommandDescription> query_commands() {
-  const Scope s = Scope::session;
   return {
       {"expect",
-       s,
        {{"quantity", Kind::word, true, "of the run, or time_s, breaks, stems, fruits"},
         {"above", Kind::number, false, "least"},
         {"below", Kind::number, false, "most"},
@@ -131,7 +123,6 @@ std::vector<CommandDescription> query_commands() {
        "Fails where a quantity is not as said.",
        expect_quantity},
       {"help",
-       s,
        {{"verb", Kind::text, false, "of a command"}},
        "Says what commands there are.",
        tell_commands},

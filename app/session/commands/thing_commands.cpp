@@ -1,6 +1,7 @@
 #include "app/session/commands/command_table.h"
 #include "app/session/commands/scene_things.h"
 #include "engine/core/check.h"
+#include "engine/io/thing_bounds.h"
 
 /// Moving, turning, copying, renaming and deleting what stands in a scene, as commands.
 namespace pedicel::app {
@@ -105,32 +106,28 @@ void clear(Document& document, const Command& c) {
 }
 
 std::vector<CommandDescription> commands_of(ThingKind kind, bool has_turn) {
-  const Scope d = Scope::document;
   const std::string word = word_of(kind);
   const ArgumentDescription name{word, Kind::word, true, "name of the " + word + " in the scene"};
   const ArgumentDescription as{"as", Kind::word, true, "the copy's name"};
-  const ArgumentDescription position{"position", Kind::point, false, "m, in the world (the same)"};
+  const ArgumentDescription position{"position", Kind::point, false, "m, in the world (the same)",
+                                     io::place_bounds};
   const bool plant = kind == ThingKind::plant;
   std::vector<CommandDescription> table;
   if (has_turn) {
     table.push_back({"move " + word,
-                     d,
-                     {name, {"to", Kind::point, true, "m, in the world"}},
+                     {name, {"to", Kind::point, true, "m, in the world", io::place_bounds}},
                      "Puts a " + word + " elsewhere.",
                      plant ? move<ThingKind::plant> : move<ThingKind::body>});
     table.push_back(
         {"turn " + word,
-         d,
          {name, {"to", Kind::numbers, true, "x,y,z,w, or roll,pitch,yaw in rad, in the world"}},
          "Turns a " + word + ".",
          plant ? turn<ThingKind::plant> : turn<ThingKind::body>});
     table.push_back({"copy " + word,
-                     d,
                      {name, as, position},
                      "Puts a copy of a " + word + " beside it.",
                      plant ? copy<ThingKind::plant> : copy<ThingKind::body>});
     table.push_back({"delete " + word,
-                     d,
                      {name},
                      "Takes a " + word + " out of the scene.",
                      plant ? remove<ThingKind::plant> : remove<ThingKind::body>});
@@ -139,7 +136,6 @@ std::vector<CommandDescription> commands_of(ThingKind kind, bool has_turn) {
                         : kind == ThingKind::body ? rename<ThingKind::body>
                                                   : rename<ThingKind::camera>;
   table.push_back({"rename " + word,
-                   d,
                    {name, {"to", Kind::word, true, "its new name"}},
                    "Gives a " + word + " another name, wherever the scene says it.",
                    renaming});
@@ -149,17 +145,14 @@ std::vector<CommandDescription> commands_of(ThingKind kind, bool has_turn) {
 }  // namespace
 
 std::vector<CommandDescription> thing_commands() {
-  const Scope d = Scope::document;
   const ArgumentDescription camera{"camera", Kind::word, true, "name of the camera"};
   std::vector<CommandDescription> table = {
       {"copy camera",
-       d,
        {camera, {"as", Kind::word, true, "the copy's name"}},
        "Adds a camera like another one.",
        copy_camera},
-      {"delete camera", d, {camera}, "Takes a camera away.", remove_camera},
+      {"delete camera", {camera}, "Takes a camera away.", remove_camera},
       {"clear references",
-       d,
        {{"name", Kind::word, true, "PLANT, PLANT/FRUIT, a body, or robot"}},
        "Takes away what the scene says of a thing: the robot's program that goes to it, loads, "
        "expectations, cameras that follow it.",

@@ -1,9 +1,7 @@
-#include <cmath>
-
 #include "app/session/commands/command_table.h"
 #include "app/session/commands/scene_things.h"
 #include "engine/core/check.h"
-#include "engine/io/csv.h"
+#include "engine/io/thing_bounds.h"
 
 /// Strings of a scene (its `ties`) as commands.
 namespace pedicel::app {
@@ -28,27 +26,20 @@ void check_tied_organ(const Document& document, const std::string& organ) {
     throw UsageError("no organ " + in_quotes(organ) + ", expected PLANT/STEM or PLANT/FRUIT");
 }
 
-double tie_number(const Command& c, const std::string& name, const char* argument, double low,
-                  double high, const char* expected) {
-  const double value = c.number(argument);
-  if (!(value >= low && value <= high))
-    throw UsageError(name + " " + io::format_number(value) + ", expected " + expected);
-  return value;
-}
-
-void set_tie_number(SceneTie& tie, const Command& c, const std::string& key, const char* argument) {
-  if (key == "at")
-    tie.at = tie_number(c, key, argument, 0.0, 1.0, "a fraction of the stem's length, 0 to 1");
-  else if (key == "to_at" && tie.to_organ.empty())
+void set_tie_number(SceneTie& tie, const std::string& key, double value) {
+  if (key == "to_at" && tie.to_organ.empty())
     throw UsageError("to_at of a tie that ends at a point, expected one that ends on a stem");
+  if (key == "at")
+    tie.at = value;
   else if (key == "to_at")
-    tie.to_at = tie_number(c, key, argument, 0.0, 1.0, "a fraction of the stem's length, 0 to 1");
+    tie.to_at = value;
   else if (key == "length")
-    tie.length = tie_number(c, key, argument, 0.0, 1.0e6, "m from 0 on");
+    tie.length = value;
   else if (key == "stiffness")
-    tie.stiffness = tie_number(c, key, argument, 1.0e-3, 1.0e9, "N/m from 1e-3 to 1e9");
+    tie.stiffness = value;
   else
     throw UsageError(in_quotes(key) + ", expected one of: at, to_at, length, stiffness");
+  check_within(key, value, argument_of("tie", key, true));
 }
 
 /// The other end; false: the command does not say it.
@@ -66,10 +57,8 @@ bool set_tie_end(const Document& document, SceneTie& tie, const Command& c) {
     tie.to = c.point(tie.is_offset ? "offset" : "to");
     tie.to_organ.clear();
     tie.to_at.reset();
-    if (!tie.to.allFinite())
-      throw UsageError("the end of a tie, expected three finite numbers in m");
   }
-  if (c.has("to_at")) set_tie_number(tie, c, "to_at", "to_at");
+  if (c.has("to_at")) set_tie_number(tie, "to_at", c.number("to_at"));
   return ends == 1 || c.has("to_at");
 }
 
@@ -78,7 +67,7 @@ void add_tie(Document& document, const Command& c) {
   SceneTie tie;
   tie.organ = c.word("organ");
   for (const char* key : {"at", "length", "stiffness"})
-    if (c.has(key)) set_tie_number(tie, c, key, key);
+    if (c.has(key)) set_tie_number(tie, key, c.number(key));
   if (!set_tie_end(document, tie, c))
     throw UsageError("a tie without an end, expected to, offset or to_organ");
   document.edit_scene().ties.push_back(tie);
@@ -90,19 +79,11 @@ void move_tie(Document& document, const Command& c) {
     check_tied_organ(document, c.word("organ"));
     tie.organ = c.word("organ");
   }
-  if (c.has("at")) set_tie_number(tie, c, "at", "at");
+  if (c.has("at")) set_tie_number(tie, "at", c.number("at"));
   const bool end = set_tie_end(document, tie, c);
   if (!end && !c.has("organ") && !c.has("at"))
     throw UsageError("nothing to move, expected organ, at, to, offset, to_organ or to_at");
   tie_of(document, c) = tie;
-}
-
-void set_tie(Document& document, const Command& c) {
-  set_tie_number(tie_of(document, c), c, c.word("key"), "value");
-}
-
-void tauten_tie(Document& document, const Command& c) {
-  tie_of(document, c).length.reset();
 }
 
 void delete_tie(Document& document, const Command& c) {
@@ -114,33 +95,33 @@ void delete_tie(Document& document, const Command& c) {
 }  // namespace
 
 std::vector<CommandDescription> tie_commands() {
-  const Scope d = Scope::document;
   const ArgumentDescription tie{"tie", Kind::whole, true, "number of the tie, from 1"};
-  const ArgumentDescription to{"to", Kind::point, false, "m, in the world: where it ends"};
+  const ArgumentDescription to{"to", Kind::point, false, "m, in the world: where it ends",
+                               io::place_bounds};
   const ArgumentDescription offset{"offset", Kind::point, false,
-                                   "m, from the tied place as drawn, in place of to"};
+                                   "m, from the tied place as drawn, in place of to",
+                                   io::place_bounds};
   const ArgumentDescription to_organ{"to_organ", Kind::word, false,
                                      "PLANT/STEM or PLANT/FRUIT where it ends, in place of to"};
   const ArgumentDescription to_at{"to_at", Kind::number, false,
-                                  "as at, of to_organ (nearest to the tied place)"};
+                                  "as at, of to_organ (nearest to the tied place)", io::fraction};
   return {
       {"add tie",
-       d,
        {{"organ", Kind::word, true, "PLANT/STEM or PLANT/FRUIT; the name of a grid: each of it"},
         to,
         offset,
         to_organ,
         to_at,
-        {"at", Kind::number, false, "fraction of the stem's length, from its foot (1)"},
-        {"length", Kind::number, false, "m, beyond which it pulls (as drawn)"},
-        {"stiffness", Kind::number, false, "N/m (1e4)"}},
+        argument_of("tie", "at", false),
+        argument_of("tie", "length", false),
+        argument_of("tie", "stiffness", false)},
        "Ties a place of a plant by a string.",
        add_tie},
       {"move tie",
-       d,
        {tie,
         {"organ", Kind::word, false, "PLANT/STEM or PLANT/FRUIT (the same)"},
-        {"at", Kind::number, false, "fraction of the stem's length, from its foot (the same)"},
+        {"at", Kind::number, false, "fraction of the stem's length, from its foot (the same)",
+         io::fraction},
         to,
         offset,
         to_organ,
@@ -148,14 +129,18 @@ std::vector<CommandDescription> tie_commands() {
        "Puts one end of a tie elsewhere, or both.",
        move_tie},
       {"set tie",
-       d,
        {tie,
         {"key", Kind::word, true, "at (1), to_at (1), length (m), stiffness (N/m)"},
         {"value", Kind::number, true, "of the key"}},
        "Sets a number of a tie.",
-       set_tie},
-      {"tauten tie", d, {tie}, "Gives a tie the length that it has as drawn.", tauten_tie},
-      {"delete tie", d, {tie}, "Takes a tie away.", delete_tie},
+       [](Document& document, const Command& c) {
+         set_tie_number(tie_of(document, c), c.word("key"), c.number("value"));
+       }},
+      {"tauten tie",
+       {tie},
+       "Gives a tie the length that it has as drawn.",
+       [](Document& document, const Command& c) { tie_of(document, c).length.reset(); }},
+      {"delete tie", {tie}, "Takes a tie away.", delete_tie},
   };
 }
 

@@ -1,7 +1,5 @@
 #include "app/session/live/live_run.h"
 
-#include <algorithm>
-
 namespace pedicel::app {
 
 LiveRun::LiveRun(std::shared_ptr<const simulation::SceneAssets> assets)
@@ -17,7 +15,6 @@ void LiveRun::make() {
 
 void LiveRun::act(Input input) {
   done_.resize(next_);
-  known_steps_ = steps();
   done_.push_back({steps(), input});
   next_ = done_.size();
   input(*this);
@@ -25,9 +22,7 @@ void LiveRun::act(Input input) {
 
 const world::WorldReport& LiveRun::step() {
   while (next_ < done_.size() && done_[next_].step <= steps()) done_[next_++].input(*this);
-  const world::WorldReport& report = simulation_->step();
-  known_steps_ = std::max(known_steps_, steps());
-  return report;
+  return simulation_->step();
 }
 
 void LiveRun::rewind() {
@@ -38,7 +33,6 @@ void LiveRun::rewind() {
 void LiveRun::reset() {
   first_ = simulation_->assets();
   done_.clear();
-  known_steps_ = 0;
   rewind();
 }
 

@@ -23,8 +23,6 @@ class LiveRun {
   Pull& pull() { return *pull_; }
   const Pull& pull() const { return *pull_; }
   long steps() const { return simulation_->world().steps(); }
-  /// Steps that the run has had, for going forward again after going back.
-  long known_steps() const { return known_steps_; }
 
   /// Does something now, and again at this step of every replay. What was done after this step is
   /// forgotten.
@@ -53,7 +51,6 @@ class LiveRun {
   std::unique_ptr<Pull> pull_;  // of simulation_; outlives no step of it
   std::vector<Done> done_;
   std::size_t next_ = 0;  // of done_, to do again
-  long known_steps_ = 0;
 };
 
 }  // namespace pedicel::app

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/core/check.h"
+#include "engine/core/joined.h"
 #include "plugins/cosserat/lanes/lane_kernels.h"
 
 namespace pedicel::cosserat {
@@ -12,10 +13,8 @@ std::string checked_instruction_set(const std::string& asked) {
   const std::vector<std::string> here = available_instruction_sets();
   if (asked.empty()) return here.front();
   if (std::ranges::find(here, asked) != here.end()) return asked;
-  std::string names;
-  for (const std::string& name : here) names += (names.empty() ? "" : ", ") + name;
   throw UsageError("instruction set " + asked + ": this processor does not have it, expected " +
-                   (here.size() > 1 ? "one of: " : "") + names);
+                   (here.size() > 1 ? "one of: " : "") + joined(here));
 }
 
 void choose_instruction_set(const std::string& asked) {

@@ -34,11 +34,6 @@ class TrajectoryRefusals : public ::testing::Test {
     result.where = {"s.yaml", 7, 3};
     return result;
   }
-  std::string yaml(const std::string& text) {
-    Diagnostics diagnostics;
-    read_waypoints(io::parse_yaml(text, "s.yaml", diagnostics), "");
-    return diagnostics.text();
-  }
 
   RobotDescription robot_ = load_urdf(testing::asset("stalk6"));
   KinematicModel model_{robot_};
@@ -94,20 +89,6 @@ TEST_F(TrajectoryRefusals, PathsThatLeaveTheReach) {
   Waypoint a = waypoint(5, {0.3, 0, 0.1}), b = waypoint(15, {-0.3, 0, 0.1});
   a.approach_W = b.approach_W = -Vec3::UnitZ();
   EXPECT_THAT(path({a, b}), HasSubstr("waypoint 2 (t = 15 s): "));
-}
-
-TEST_F(TrajectoryRefusals, Yaml) {
-  EXPECT_THAT(yaml("- {time: 1, position: [0, 0, 0]}"), HasSubstr("tool"));
-  EXPECT_THAT(yaml("- {time: -1, tool: t, position: [0, 0, 0]}"), HasSubstr("time"));
-  EXPECT_THAT(yaml("- {time: 1, tool: t, position: [0, 0]}"), HasSubstr("position"));
-  EXPECT_THAT(yaml("- {time: 1, tool: t, position: [0, 0, 0], approach: [0, 0, 0]}"),
-              HasSubstr("s.yaml:1:53: error: approach of length 0, expected a direction"));
-  EXPECT_THAT(yaml("- {time: 1, tool: t, position: [0, 0, 0], approach: [0, 0, 1], orientation: "
-                   "[0, 0, 0, 1]}"),
-              HasSubstr("approach beside orientation, expected one of them"));
-  EXPECT_THAT(yaml("- {time: 1, tool: t, position: [0, 0, 0], joints: 3}"),
-              HasSubstr("joints: expected a map"));
-  EXPECT_THAT(yaml("- {time: 1, tool: t, position: [0, 0, 0], speed: 3}"), HasSubstr("speed"));
 }
 
 }  // namespace

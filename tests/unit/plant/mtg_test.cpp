@@ -220,9 +220,8 @@ std::string table_of(const std::vector<SkeletonNode>& nodes) {
 
 TEST(AppleTree, BecomesAPlant) {
   Diagnostics diagnostics;
-  const auto nodes = parse_mtg(io::read_file(apple_tree), apple_tree, diagnostics);
-  const auto plant = checked_skeleton_plant(nodes, "apple_tree", {}, diagnostics);
-  ASSERT_EQ(diagnostics.text(), "");
+  const auto plant = read_plant_source(apple_tree, 0.0, diagnostics);
+  ASSERT_FALSE(diagnostics.has_errors()) << diagnostics.text();
   ASSERT_TRUE(plant);
   EXPECT_EQ(plant->name, "apple_tree");
   EXPECT_EQ(plant->look, Look::apple);

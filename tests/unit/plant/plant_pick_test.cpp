@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "plugins/plant/plant_edit.h"
-#include "plugins/plant/plant_preview.h"
 
 namespace pedicel::plant {
 namespace {
@@ -62,40 +61,6 @@ TEST(StemPicker, WhatIsInFrontWins) {
   const auto found = StemPicker(plant).under_ray({0, -1, 0.3}, {0, 1, 0}, 0.01, 0.0);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->stem, "front");
-}
-
-TEST(PlantPreview, ShowsTheNodesThatAreKept) {
-  const PlantPreview shown = preview(drawing());
-  EXPECT_EQ(shown.problem, "");
-  EXPECT_TRUE(shown.loose.empty());
-  EXPECT_GT(shown.sampled, static_cast<int>(shown.nodes.size()));
-  double length = 0.0;
-  int roots = 0;
-  for (const PlantPreview::Node& node : shown.nodes) {
-    if (node.parent < 0)
-      ++roots;
-    else
-      length += (node.position - shown.nodes[node.parent].position).norm();
-  }
-  EXPECT_EQ(roots, 1);
-  EXPECT_NEAR(length, 0.6, 0.01);
-  PlantFile finer = drawing();
-  finer.distance = 0.02;
-  EXPECT_GT(preview(finer).nodes.size(), shown.nodes.size());
-}
-
-TEST(PlantPreview, SaysWhatReachesNothing) {
-  PlantFile plant = drawing();
-  PlantCurve loose;
-  loose.name = "loose";
-  loose.points = {{1, 0, 0}, {1, 0, 1}};
-  loose.radius = {0.004};
-  add_stem(plant, loose);
-  const PlantPreview shown = preview(plant);
-  EXPECT_THAT(shown.loose, ::testing::ElementsAre(2));
-  EXPECT_THAT(shown.problem, ::testing::HasSubstr("loose"));
-  EXPECT_TRUE(shown.nodes.empty());
-  EXPECT_NE(preview(PlantFile{}).problem, "");
 }
 
 }  // namespace

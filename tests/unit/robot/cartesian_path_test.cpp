@@ -100,21 +100,5 @@ TEST_F(CartesianPath, AFirstWaypointAtTimeZeroIsWhereTheRobotStands) {
   EXPECT_NEAR((tool_at(trajectory, 0.0).position - Vec3(0.25, 0, 0.3)).norm(), 0.0, 2e-5);
 }
 
-TEST_F(CartesianPath, ReadsWaypointsFromYaml) {
-  const io::YamlNode list = io::parse_yaml(
-      "- {time: 1, tool: hand, position: [1, 2, 3], orientation: [0, 0, 0, 2]}\n"
-      "- {time: 2, position: [1, 2, 4], approach: [0, 0, -5], joints: {finger_joint: 0.01}}\n",
-      "t.yaml", diagnostics_);
-  const std::vector<Waypoint> waypoints = read_waypoints(list, "tool");
-  ASSERT_FALSE(diagnostics_.has_errors()) << diagnostics_.text();
-  ASSERT_EQ(waypoints.size(), 2u);
-  EXPECT_EQ(waypoints[0].tool, "hand");
-  EXPECT_EQ(waypoints[0].orientation_W->w(), 1.0);
-  EXPECT_EQ(waypoints[1].tool, "tool");
-  EXPECT_EQ(*waypoints[1].approach_W, Vec3(0, 0, -1));
-  EXPECT_EQ(waypoints[1].joints.at("finger_joint"), 0.01);
-  EXPECT_EQ(waypoints[1].where.line, 2);
-}
-
 }  // namespace
 }  // namespace pedicel::robot

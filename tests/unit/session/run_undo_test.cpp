@@ -68,7 +68,7 @@ TEST_F(Hands, ACutFallsIsToldAndIsTakenBack) {
   EXPECT_LT(now->bodies[0].pose.position.z(), 0.15);
   EXPECT_THAT(refusal("cut p/branch 0.6"), HasSubstr("has come off there already"));
   EXPECT_THAT(refusal("cut p/twig"), HasSubstr("no organ"));
-  EXPECT_THAT(refusal("cut p/stem 1.5"), HasSubstr("from 0 to 1"));
+  EXPECT_THAT(refusal("cut p/stem 1.5"), HasSubstr("between 0 and 1"));
   run("step back 12");
   run("step 12");
   EXPECT_EQ(session.snapshot()->bodies[0].pose.position, now->bodies[0].pose.position)
@@ -101,7 +101,7 @@ TEST_F(Hands, ATimeIsGoneToBackAndForth) {
   EXPECT_EQ(session.snapshot()->step, std::lround(0.05 * 240));
   run("go to 0.2");
   EXPECT_EQ(session.control().state_hash(), late);
-  EXPECT_THAT(refusal("go to -1"), HasSubstr("from 0 on"));
+  EXPECT_THAT(refusal("go to -1"), HasSubstr("between 0 and"));
 }
 
 TEST_F(Hands, ATunedNumberActsAndIsKeptAlone) {

@@ -172,11 +172,11 @@ TEST_F(Scripts, WhatCannotBeDoneIsNotTakenSilently) {
   const std::string joint =
       robot::KinematicModel(*session.snapshot()->assets->robot).joint_names()[0];
   const std::vector<std::pair<std::string, std::string>> refused = {
-      {"run -1", "duration -1, expected s from 0 on"},
-      {"run 1e300", "duration 1e+300, expected s of at most 1000000"},
-      {"speed -2", "value -2, expected simulated s a wall s from 0 on"},
-      {"step 0", "count 0, expected 1 or more"},
-      {"step back -3", "count -3, expected 1 or more"},
+      {"run -1", "duration -1, expected a number between 0 and 1000000 (s, simulated)"},
+      {"run 1e300", "duration 1e+300, expected a number between 0 and 1000000 (s, simulated)"},
+      {"speed -2", "value -2, expected a number >= 0 (simulated s a wall s"},
+      {"step 0", "count 0, expected a number >= 1 (steps"},
+      {"step back -3", "count -3, expected a number >= 1 (steps"},
       {"step back 5", "5 from step 0, expected a run that has begun"},
       {"step 2\nstep back 3", "3 from step 2, expected at most as many as were done"},
       {"joint " + joint + " 99", "joint " + joint + " = 99, expected -"},

@@ -146,7 +146,7 @@ TEST_F(Kinds, PointsThatHappenToBeNearStay) {
 TEST_F(Kinds, WhatIsImpossibleIsRefused) {
   EXPECT_THAT(refusal("set point kind p bow 0 corner"), HasSubstr("is an end"));
   EXPECT_THAT(refusal("set point kind p bow 9 corner"), HasSubstr("expected one from 0 to 4"));
-  EXPECT_THAT(refusal("set point kind p bow 2 round"), HasSubstr("corner, linear or smooth"));
+  EXPECT_THAT(refusal("set point kind p bow 2 round"), HasSubstr("one of: smooth, corner, linear"));
 }
 
 using Cuts = EditCase;

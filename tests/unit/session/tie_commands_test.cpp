@@ -102,13 +102,14 @@ TEST_F(Tying, WhatCannotBeIsRefused) {
   EXPECT_THAT(refusal("add tie p/stem"), HasSubstr("expected to, offset or to_organ"));
   EXPECT_THAT(refusal("add tie p/stem to=0,0,1 offset=0,0,1"),
               HasSubstr("expected one of to, offset and to_organ"));
-  EXPECT_THAT(refusal("add tie p/stem to=0,0,1 at=1.5"), HasSubstr("0 to 1"));
-  EXPECT_THAT(refusal("add tie p/stem to=0,0,1 stiffness=0"), HasSubstr("N/m from 1e-3"));
+  EXPECT_THAT(refusal("add tie p/stem to=0,0,1 at=1.5"), HasSubstr("between 0 and 1"));
+  EXPECT_THAT(refusal("add tie p/stem to=0,0,1 stiffness=0"),
+              HasSubstr("stiffness 0, expected a number between 0.001"));
   EXPECT_THAT(refusal("set tie 1 at 0.5"), HasSubstr("one to be added before"));
   run("add tie p/stem to=0,0,1");
   EXPECT_THAT(refusal("set tie 2 at 0.5"), HasSubstr("from 1 to 1"));
   EXPECT_THAT(refusal("set tie 1 colour 2"), HasSubstr("at, to_at, length, stiffness"));
-  EXPECT_THAT(refusal("set tie 1 length -1"), HasSubstr("m from 0 on"));
+  EXPECT_THAT(refusal("set tie 1 length -1"), HasSubstr("length -1, expected a number >= 0"));
   EXPECT_THAT(refusal("move tie 1"), HasSubstr("nothing to move"));
 }
 
