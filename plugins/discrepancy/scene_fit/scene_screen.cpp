@@ -80,14 +80,14 @@ class Screen {
   }
 
   std::vector<ScreenedCause> run(std::vector<SeenFrom>* seen) {
-    Eigen::MatrixXd all = simulated(Eigen::MatrixXd(base_.residual.size(), 0));
-    differentiate_best(all);
-    all = simulated(all);
+    simulate_rest();
+    differentiate_best();
+    simulate_rest();
     // Every start by itself: which one of a cause stands for it is decided by whoever refits.
     std::vector<ScreenedCause> screened;
     for (const Start& start : starts_) {
-      if (!start.moved.empty()) screened.push_back(judged(start, all));
-      if (seen && start.base == &base_) keep_clearest(*seen, seen_from(start, all));
+      if (!start.moved.empty()) screened.push_back(judged(start));
+      if (seen && start.base == &base_) keep_clearest(*seen, seen_from(start));
     }
     // Stable, so that ties go by the order of the definitions and verdicts repeat.
     std::ranges::stable_sort(screened, {}, &ScreenedCause::linear_cost);
@@ -135,27 +135,26 @@ class Screen {
     }
   }
 
-  // Those that are wanted and not among the columns that are known.
-  Eigen::MatrixXd simulated(const Eigen::MatrixXd& known) {
-    Eigen::MatrixXd all(base_.residual.size(), static_cast<long>(wanted_.size()));
-    all.leftCols(known.cols()) = known;
+  // What is wanted and was not simulated before.
+  void simulate_rest() {
+    const long known = all_.cols();
+    all_.conservativeResize(base_.residual.size(), static_cast<long>(wanted_.size()));
     // In parts, as readings of a long trial with cameras take megabytes a model.
-    for (auto first = static_cast<std::size_t>(known.cols()); first < wanted_.size();
+    for (auto first = static_cast<std::size_t>(known); first < wanted_.size();
          first += most_at_once) {
       const std::size_t count = std::min(most_at_once, wanted_.size() - first);
-      all.middleCols(static_cast<long>(first), static_cast<long>(count)) =
+      all_.middleCols(static_cast<long>(first), static_cast<long>(count)) =
           evaluator_.residuals(std::span(wanted_).subspan(first, count), trials_);
     }
-    return all;
   }
 
   // A plant's own effects have some ninety starts, whose derivatives would be three hundred
   // simulations of every trial. So each is simulated once, and is worth what it takes at its best
   // size, of the same shape as at the start. Only the best are differentiated.
-  void differentiate_best(const Eigen::MatrixXd& all) {
+  void differentiate_best() {
     std::multimap<double, std::size_t> by_cost;
     for (std::size_t s = 0; s < starts_.size(); ++s)
-      if (starts_[s].is_bare) by_cost.emplace(cost_by_size(all.col(starts_[s].at)), s);
+      if (starts_[s].is_bare) by_cost.emplace(cost_by_size(all_.col(starts_[s].at)), s);
     const SceneSearchSettings& how = evaluator_.settings().search;
     const double excess = SceneDataSet::beyond_noise(base_.sum);
     // Where no cause could gain enough, sizes of what could hide are all that is wanted.
@@ -178,14 +177,34 @@ class Screen {
     for (const effects::EffectDefinition* factor : effects::material_factors())
       if (const int p = model.factor_on(factor->name); p >= 0) model.set_value(p, 1.0);
     files_ = look_at(evaluator_, model, trials_);
+    // Starts are small, and a root that is softer than its stem is far from them: each is looked at
+    // in other sizes, and differentiated in the best.
+    std::vector<std::vector<Start>> sizes;
     for (const std::size_t s : best) {
-      const SceneFit fit = starts_[s].fit;
-      Start start = begun(files_, starts_[s].name, fit);
-      // What does nothing would leave what the files leave.
-      if (start.at < 0) continue;
+      std::vector<Start>& all = sizes.emplace_back();
+      for (const double size : {1.0, 3.0, 9.0}) {
+        Start start = begun(files_, starts_[s].name, sized(starts_[s].fit, size));
+        // What does nothing would leave what the files leave.
+        if (start.at >= 0) all.push_back(std::move(start));
+      }
+    }
+    simulate_rest();
+    for (std::vector<Start>& all : sizes) {
+      if (all.empty()) continue;
+      const auto left = [&](const Start& start) {
+        return without(files_, all_.col(start.at)).squaredNorm();
+      };
+      Start& start = *std::ranges::min_element(all, {}, left);
       differentiate(start);
       starts_.push_back(std::move(start));
     }
+  }
+
+  static SceneFit sized(const SceneFit& fit, double size) {
+    Hypothesis own;
+    own.effects = {fit.effect};
+    own.free = fit.free;
+    return {own.shrunk(size).bounded().effects.front(), fit.free};
   }
 
   bool has_left_files() const {
@@ -199,8 +218,8 @@ class Screen {
 
   // What is left where the base's numbers and the size of a change are free.
   double cost_by_size(const Eigen::VectorXd& there) const {
-    const Eigen::VectorXd change = without_base(base_.residual - there);
-    const Eigen::VectorXd left = without_base(base_.residual);
+    const Eigen::VectorXd change = without(base_, base_.residual - there);
+    const Eigen::VectorXd left = without(base_, base_.residual);
     const double square = change.squaredNorm();
     // The other way round it would be another effect.
     const double size = square > 0.0 ? std::max(0.0, change.dot(left) / square) : 0.0;
@@ -212,16 +231,16 @@ class Screen {
     return static_cast<int>(wanted_.size()) - 1;
   }
 
-  ScreenedCause judged(const Start& start, const Eigen::MatrixXd& all) const {
+  ScreenedCause judged(const Start& start) const {
     const SceneFitResult& base = *start.base;
-    const Eigen::VectorXd here = start.at < 0 ? base.residual : Eigen::VectorXd(all.col(start.at));
+    const Eigen::VectorXd here = start.at < 0 ? base.residual : Eigen::VectorXd(all_.col(start.at));
     const long own = static_cast<long>(start.moved.size()), old = base.jacobian.cols();
     Eigen::MatrixXd jacobian(here.size(), old + own);
     // Taken at the base. What a start of some size changes of it is left out. Its own derivatives
     // would be as many simulations again for each start.
     jacobian.leftCols(old) = base.jacobian;
     for (long p = 0; p < own; ++p)
-      jacobian.col(old + p) = (here - all.col(start.moved[static_cast<std::size_t>(p)])) /
+      jacobian.col(old + p) = (here - all_.col(start.moved[static_cast<std::size_t>(p)])) /
                               start.step[static_cast<std::size_t>(p)];
     ScreenedCause out;
     out.name = start.name;
@@ -236,15 +255,15 @@ class Screen {
     return out;
   }
 
-  // What is left of a change beyond what the base's own numbers can make.
-  Eigen::VectorXd without_base(const Eigen::VectorXd& change) const {
-    const Eigen::MatrixXd& j = base_.jacobian;
+  // What is left of a change beyond what a base's own numbers can make.
+  static Eigen::VectorXd without(const SceneFitResult& base, const Eigen::VectorXd& change) {
+    const Eigen::MatrixXd& j = base.jacobian;
     Eigen::VectorXd left = change;
     if (j.cols() > 0) {
       Eigen::MatrixXd normal = j.transpose() * j;
       for (long p = 0; p < j.cols(); ++p) {
         // With what is known of them: a density may not go anywhere to imitate a payload.
-        const double width = base_.model.free[static_cast<std::size_t>(p)].width();
+        const double width = base.model.free[static_cast<std::size_t>(p)].width();
         normal(p, p) += 1.0 / (width * width);
       }
       // What the baseline's numbers can imitate is not seen, however large it is.
@@ -255,11 +274,11 @@ class Screen {
 
   // Noise units RMS, the unit in which misfits are told, so that one is compared with the other.
   double clear_of_base(const Eigen::VectorXd& change) const {
-    return without_base(change).norm() /
+    return without(base_, change).norm() /
            std::sqrt(std::max(1.0, static_cast<double>(base_.sum.count)));
   }
 
-  SeenFrom seen_from(const Start& start, const Eigen::MatrixXd& all) const {
+  SeenFrom seen_from(const Start& start) const {
     SeenFrom out;
     out.name = start.name;
     const int old = base_.model.size();
@@ -283,10 +302,10 @@ class Screen {
       // is.
       if (start.at < 0) {
         const double step = start.step[static_cast<std::size_t>(p - old)];
-        change = base_.residual - all.col(start.moved[static_cast<std::size_t>(p - old)]);
+        change = base_.residual - all_.col(start.moved[static_cast<std::size_t>(p - old)]);
         way = free.logarithmic ? std::abs(step) : std::abs(free.scale * step);
       } else {
-        change = base_.residual - all.col(start.at);
+        change = base_.residual - all_.col(start.at);
         using effects::Vanishes;
         // In the way in which it grows: a factor by its logarithm, a stiffness by its inverse. So a
         // size may be scaled to what is just seen.
@@ -317,6 +336,7 @@ class Screen {
   SceneFitResult files_;  // of the base's model with the files' own material
   std::span<const int> trials_;
   std::vector<Hypothesis> wanted_;
+  Eigen::MatrixXd all_;  // residuals of what is wanted
   std::vector<Start> starts_;
 };
 
