@@ -102,7 +102,8 @@ TEST_F(PlantCauses, ASoftRootIsNamedAloneWithItsStiffness) {
       "noise: {position_std: 0.0003, force_std: 0.03, moment_std: 0.002, joint_std: 0.00002}\n";
   // To be quick: half the rate, and the best few are tried and refitted.
   numerics_.dt = 4.0e-3;
-  settings_.search.tried = 8;
+  settings_.search.plant_starts = 8;
+  settings_.search.tried = 6;
   settings_.search.refits = 2;
   const SceneDiagnosis found = diagnose({"{name: base_compliance, stiffness: 1.0}"});
   EXPECT_EQ(found.verdict.outcome, Outcome::named) << found.text;
