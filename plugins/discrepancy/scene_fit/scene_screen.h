@@ -12,6 +12,7 @@ namespace pedicel::discrepancy {
 struct ScreenedCause {
   std::string name;          ///< of the cause
   Hypothesis model;          ///< the base with the cause, free numbers where the linear puts them
+  Eigen::VectorXd begun;     ///< unknowns of the base from which the linear went there
   double linear_cost = 0.0;  ///< nats, half the sum of squares that is left then
 };
 
@@ -30,7 +31,8 @@ struct SeenFrom {
 
 /// All causes of scenes and of plants that `base` has not, at once: residuals of each at its starts
 /// and the derivatives of its numbers there, side by side, on top of the base's own derivatives.
-/// Best first. `seen`: how large each would have to be.
+/// Effects of plants are also begun where the base's factors on the material are those of the
+/// files. Best first. `seen`: how large each would have to be.
 std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneFitResult& base,
                                          const std::vector<std::string>& has,
                                          std::span<const int> trials,

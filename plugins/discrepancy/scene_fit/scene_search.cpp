@@ -128,6 +128,28 @@ std::vector<std::string> material_of(const SceneFitResult& fit, const SceneExper
   return names;
 }
 
+// Whether one cause is what another one goes over into: a weak stretch without a length is a soft
+// root.
+bool is_case_of(const std::string& special, const std::string& general) {
+  if (effects::is_special_case(special, general)) return true;
+  const effects::EffectDefinition* known = effects::find_effect(general);
+  return known && std::ranges::any_of(known->limits, [&](const effects::Limit& limit) {
+           return limit.becomes == special;
+         });
+}
+
+// The same of two models that have all other causes in common.
+bool is_case_of(const std::vector<std::string>& special, const std::vector<std::string>& general) {
+  const auto without = [](std::vector<std::string> names, const std::vector<std::string>& others) {
+    std::erase_if(names, [&](const std::string& name) {
+      return std::ranges::find(others, name) != others.end();
+    });
+    return names;
+  };
+  const std::vector<std::string> own = without(special, general), other = without(general, special);
+  return own.size() == 1 && other.size() == 1 && is_case_of(own.front(), other.front());
+}
+
 class Search {
  public:
   Search(SceneEvaluator& evaluator, const SceneSearchOptions& options)
@@ -315,7 +337,7 @@ class Search {
     std::erase_if(screened, [&](const ScreenedCause& one) {
       return square(base_excess) - square(excess_of(one.linear_cost, base.sum)) < how_.least_gain;
     });
-    screened = best_of_each(tried(base, screened));
+    screened = best_of_each(tried(screened));
     double best = base_excess;
     std::size_t done = 0;
     // A second cause is looked for on top of one that has explained much.
@@ -399,18 +421,17 @@ class Search {
   // Linear costs are too good: whoever keeps more of one, at the whole step or a shorter one, goes
   // first, and from there. Which joint it is, or from where a cause is best begun, they do not say:
   // that of the right one may be worse.
-  std::vector<ScreenedCause> tried(const SceneFitResult& base,
-                                   const std::vector<ScreenedCause>& all) {
+  std::vector<ScreenedCause> tried(const std::vector<ScreenedCause>& all) {
     std::vector<ScreenedCause> screened = in_turns(all);
     const auto most = static_cast<std::size_t>(how_.tried);
     if (screened.size() > most) screened.resize(most);
     std::vector<Hypothesis> models;
     // A contact bends the way: half of a step may leave less than all of it.
     const double shares[] = {1.0, how_.shorter_step};
-    const Eigen::VectorXd old = base.model.unknowns();
     for (const ScreenedCause& one : screened)
       for (const double share : shares) {
         Hypothesis model = one.model;
+        const Eigen::VectorXd& old = one.begun;
         Eigen::VectorXd u = model.unknowns();
         // The base goes as far along as the cause does, because the step was one of both.
         u.head(old.size()) = old + share * (u.head(old.size()) - old);
@@ -540,6 +561,13 @@ class Search {
     std::size_t fewest = things(best);
     for (const std::size_t i : near) fewest = std::min(fewest, things(found_.candidates[i]));
     std::erase_if(near, [&](std::size_t i) { return things(found_.candidates[i]) > fewest; });
+    // Of a cause and what it is a special case of both always do, and the plainer one says all.
+    const std::vector<std::size_t> plainest = near;
+    std::erase_if(near, [&](std::size_t i) {
+      return std::ranges::any_of(plainest, [&](std::size_t other) {
+        return is_case_of(found_.candidates[other].names, found_.candidates[i].names);
+      });
+    });
     const std::vector<std::size_t> all = near;
     std::erase_if(near, [&](std::size_t i) {
       return std::ranges::any_of(all, [&](std::size_t other) {

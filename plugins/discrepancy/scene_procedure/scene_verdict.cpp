@@ -197,10 +197,11 @@ class Conclusion {
       const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
       const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
       if (effect.name != name || p >= fit.standard_error.size()) continue;
-      cause.parameters[free.name].push_back(estimate_of(fit, p));
       // Which link, which camera: part of what was found, as much as its numbers.
       cause.words = effect.words;
       cause.where = effect.place;
+      // A place is told as `where`.
+      if (free.name != "at") cause.parameters[free.name].push_back(estimate_of(fit, p));
     }
     const SceneEffectDefinition* known = find_scene_effect(name);
     if (known) cause.plain = known->plain_name;
@@ -397,9 +398,15 @@ class Conclusion {
   }
 
   void tell_next() {
-    for (const NamedCause& cause : v_.causes)
-      if (const SceneEffectDefinition* known = find_scene_effect(cause.name))
-        v_.next_experiment += (v_.next_experiment.empty() ? "" : "; or ") + known->tells_apart;
+    for (const NamedCause& cause : v_.causes) {
+      const SceneEffectDefinition* known = find_scene_effect(cause.name);
+      const effects::EffectDefinition* of_plant = effects::find_effect(cause.name);
+      const std::string says = known      ? known->tells_apart
+                               : of_plant ? of_plant->tells_apart
+                                          : std::string();
+      if (says.empty()) continue;
+      v_.next_experiment += (v_.next_experiment.empty() ? "" : "; or ") + says;
+    }
     // Amplitude tells most look-alikes apart: contact, friction and soft joints grow with it in
     // different ways.
     if (v_.next_experiment.empty())

@@ -112,6 +112,17 @@ void add_effort(SceneSearchSettings& s, SettingRows& rows) {
              {budget, scene_time, "Such diagnoses take longer."});
   rows.count("tried", s.tried, "Causes whose linear prediction is tried in full.",
              {budget, scene_time, "Searches take longer."});
+  rows.count("plant_starts", s.plant_starts,
+             "Starts of effects of the plants' own models whose derivatives are taken.",
+             {budget, "each is a simulation of every trial for each of its numbers",
+              "Searches take longer."});
+  rows.count("starts_of_each", s.starts_of_each, "Of one such effect at most.",
+             {budget, "two places, or a soft and a stiff one", "Fewer effects are among them."});
+  rows.number(
+      "left_files", s.left_files,
+      "Logarithm of a baseline's factor from which on they are begun at the files' own, too.",
+      {budget, "nearer than that the linear finds its way",
+       "A cause that the modulus took over halfway is begun from there alone."});
   rows.count("refits", s.refits,
              "Causes refitted in the first round, and as many of fewer numbers; half in the next.",
              {budget, scene_time, "Searches take up to twice as long."});

@@ -39,6 +39,9 @@ struct SceneSearchSettings {
   double rest_stretch = 0.2;  ///< s
   int renewals = 3;
   int tried = 16;
+  int plant_starts = 16;
+  int starts_of_each = 2;
+  double left_files = 0.1;  ///< of a logarithm
   int refits = 4;
   int causes = 3;
 };

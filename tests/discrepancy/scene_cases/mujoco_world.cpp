@@ -129,6 +129,7 @@ class Chain {
 
   void write(const std::string& pose) {
     out_ << "<body name='" << letter_ << "s0' " << pose << ">\n";
+    if (!is_truss()) root();
     piece(0.5 * length_);
     int open = 1;
     for (int i = 1; i <= count_; ++i) {
@@ -140,9 +141,10 @@ class Chain {
            << "'>\n";
       ++open;
       if (i % stretching == stretching / 2) stretch(i);
-      hinge("x", "1 0 0", i, bend_);
-      hinge("y", "0 1 0", i, bend_);
-      hinge("z", "0 0 1", i, twist_);
+      const double weak = weakness(i);
+      hinge("x", "1 0 0", i, bend_ / weak);
+      hinge("y", "0 1 0", i, bend_ / weak);
+      hinge("z", "0 0 1", i, twist_ / weak);
       if (fruit)
         out_ << Fruit(s_).text_of("class='plant'");
       else
@@ -162,6 +164,27 @@ class Chain {
     Chain(s_, "truss", "t", truss.length, truss.radius, held_, out_)
         .write("pos='0 0 " + text(truss.from - (i - 0.5) * length_) + "' quat='" + text(turn) +
                "'");
+  }
+
+  // A soft root: a spring about both bending axes between ground and stem. It is damped as the stem
+  // is, and so in series with it gives as one softer joint does.
+  void root() {
+    if (!is_hidden(s_, "base_compliance")) return;
+    const double k = hidden_number(s_, "base_compliance", "stiffness", 0.0);
+    hinge("x", "1 0 0", 0, k);
+    hinge("y", "0 1 0", 0, k);
+  }
+
+  // By how much more the joint gives that stands for a stretch of one segment: its share of a weak
+  // stretch, in which EI and GJ are `factor` times as large.
+  double weakness(int i) const {
+    if (is_truss() || !is_hidden(s_, "weak_segment")) return 1.0;
+    const double centre = hidden_number(s_, "weak_segment", "at", 0.0) * whole_;
+    const double half = 0.5 * hidden_number(s_, "weak_segment", "length", 0.0);
+    const double shared =
+        std::min(i * length_, centre + half) - std::max((i - 1) * length_, centre - half);
+    const double share = std::clamp(shared / length_, 0.0, 1.0);
+    return 1.0 - share + share / hidden_number(s_, "weak_segment", "factor", 1.0);
   }
 
   void hinge(const char* axis, const char* vector, int i, double stiffness) {
@@ -185,7 +208,7 @@ class Chain {
          << "'/>\n<geom type='capsule' class='plant' size='" << text(radius_)
          << "' fromto='0 0 0 0 0 " << text(length) << "'/>\n";
   }
-  // Sites of what is told of this piece.
+  // Sites of what is told of this piece, and a mass that its file lacks.
   void places(int i) {
     const double from = (i - 0.5) * length_, to = i < count_ ? from + length_ : whole_ + 1e-9;
     const auto sites = [&](const std::vector<Place>& all, const char* letter) {
@@ -197,6 +220,11 @@ class Chain {
     };
     sites(markers_of(s_), "m");
     sites(points_of(s_), "p");
+    const double heavy = hidden_number(s_, "extra_mass", "at", -1.0) * whole_;
+    if (!is_truss() && heavy > from && heavy <= to)
+      out_ << "<body name='extra' pos='0 0 " << text(heavy - from)
+           << "'><inertial pos='0 0 0' mass='" << text(hidden_number(s_, "extra_mass", "mass", 0.0))
+           << "' diaginertia='1e-9 1e-9 1e-9'/></body>\n";
     const double tied = hidden_number(s_, "string", "at", -1.0) * whole_;
     if (!is_truss() && tied > from && tied <= to)
       out_ << "<site name='tied' pos='0 0 " << text(tied - from) << "'/>\n";

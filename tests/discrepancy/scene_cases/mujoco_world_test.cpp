@@ -58,6 +58,85 @@ TEST(MujocoWorld, ASoftContactGivesWayByForceOverStiffness) {
   }
 }
 
+/// The stem while the finger holds it aside, hardly of any weight of its own: what bends it.
+struct Bent {
+  double moment = 0.0;     // N m, of the finger about the root
+  double force = 0.0;      // N, across
+  std::vector<Vec3> stem;  // m, markers from the root
+};
+Bent bent(const Setting& setting) {
+  const auto run = simulate(setting, drives_of(setting).front());
+  const auto [force, moment] = touch(run, standing);
+  const std::size_t k = run.step(standing);
+  const Vec3 q = run.joints[k];
+  // Of hand and finger, about the hand's frame.
+  const double lever = hand_mass * 0.015 + finger_mass * (0.03 + 0.5 * finger_length);  // kg m
+  const Vec3 along(std::cos(q[0] + q[1]), std::sin(q[0] + q[1]), 0.0);
+  const Vec3 own = lever * along.cross(Vec3(0, 0, -weight_of_a_kilogram));
+  Bent out;
+  out.moment = (moment - own + (hand_of(q) - setting.root).cross(force)).x();
+  out.force = -force.y();
+  for (std::size_t m = 0; m < markers_of(setting).size(); ++m)
+    out.stem.push_back(run.markers[k][m] - setting.root);
+  return out;
+}
+
+double bending_of(const Setting& setting) {
+  return setting.modulus * hidden_number(setting, "youngs_modulus", "factor", 1.0) * 0.25 *
+         3.14159265358979323846 * std::pow(setting.radius, 4);
+}
+
+// m, to the side at a height below the push, of a clamped stem: EI v'' = M - F z.
+double clamped(const Bent& by, double bending, double z) {
+  return (by.moment * z * z / 2.0 - by.force * z * z * z / 6.0) / bending;
+}
+
+// It turns by M / k, beside what the stem bends.
+TEST(MujocoWorld, ASoftRootTurnsByMomentOverStiffness) {
+  for (const double stiffness : {0.5, 2.0}) {
+    const Setting setting = setting_of({"density factor=0.01", "youngs_modulus factor=10",
+                                        "base_compliance stiffness=" + std::to_string(stiffness)});
+    const Bent by = bent(setting);
+    const Vec3 low = by.stem.front();
+    const double turned = (low.y() - clamped(by, bending_of(setting), low.z())) / low.z();
+    EXPECT_GT(turned, 0.02);
+    EXPECT_NEAR(std::abs(by.moment) / stiffness, turned, 0.03 * turned) << stiffness;
+  }
+}
+
+// Its further angle is that of the same moment in less EI, from where it is on.
+TEST(MujocoWorld, AWeakStretchBendsBySoManyTimesTheStems) {
+  const Setting setting =
+      setting_of({"density factor=0.01", "weak_segment at=0.13 factor=0.3 length=0.045"});
+  const Bent by = bent(setting);
+  const Vec3 low = by.stem.front();
+  const double ei = bending_of(setting), from = 0.13 * setting.height - 0.0225, to = from + 0.045;
+  const double plain = clamped(by, ei, low.z());
+  double more = 0.0;
+  constexpr int parts = 100;
+  for (int i = 0; i < parts; ++i) {
+    const double s = from + (i + 0.5) / parts * (to - from);
+    more +=
+        (1.0 / 0.3 - 1.0) / ei * (by.moment - by.force * s) * (low.z() - s) * (to - from) / parts;
+  }
+  EXPECT_GT(more, 0.3 * plain);
+  EXPECT_NEAR(low.y(), plain + more, 0.03 * (plain + more));
+}
+
+// A stem that hardly bends leans on a soft root: that bears the finger's moment and the weight's.
+TEST(MujocoWorld, AMassPullsDownWhatLeans) {
+  const double mass = 0.05, stiffness = 1.0;
+  const Setting setting =
+      setting_of({"density factor=0.01", "youngs_modulus factor=50", "base_compliance stiffness=1",
+                  "extra_mass at=0.8 mass=0.05"});
+  const Bent by = bent(setting);
+  const Vec3 low = by.stem.front(), at = by.stem[2];
+  const double turned = std::atan2(low.y() - clamped(by, bending_of(setting), low.z()), low.z());
+  const double weight = mass * weight_of_a_kilogram * at.y();
+  EXPECT_GT(weight, 0.1 * stiffness * turned);
+  EXPECT_NEAR(stiffness * turned, by.moment + weight, 0.02 * stiffness * turned);
+}
+
 // A shoulder bears the moment about its axis, and a lift the weight above it.
 TEST(MujocoWorld, MotorsBearWeightAndWhatIsTouched) {
   Setting setting = setting_of({});

@@ -30,6 +30,7 @@ class DiagnosedScene : public testing::Test {
     how.numerics = numerics_;
     made_ = observed_scene(plain, variant, how);
     SceneDiagnosisOptions options;
+    options.settings = settings_;
     options.numerics = numerics_;
     options.settings.search.mesh = numerics_.distance;
     options.settings.search.dt = numerics_.dt;
@@ -51,6 +52,7 @@ class DiagnosedScene : public testing::Test {
   ArmAtStem at_;
   std::map<std::string, std::string> more_;  // files in place of those of `at_`
   SceneNumerics numerics_;
+  SceneSettings settings_;
   SceneExperiment made_;
   bool stops_ = false;  // as soon as the search has begun
   std::atomic<bool> stop_ = false;
