@@ -10,8 +10,7 @@
 #include "engine/core/check.h"
 #include "engine/io/key.h"
 #include "engine/world/scene_reader.h"
-#include "plugins/discrepancy/data/experiment_keys.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_keys.h"
+#include "plugins/discrepancy/files/experiment_lists.h"
 #include "plugins/discrepancy/select/verdict_keys.h"
 #include "plugins/plant/plant_file_keys.h"
 
@@ -30,7 +29,7 @@ struct KeyPage {
 constexpr KeyPage key_pages[] = {{"scene_file", world::scene_keys},
                                  {"plant_file", plant::plant_file_keys},
                                  {"experiment", discrepancy::experiment_keys},
-                                 {"scene_experiment", discrepancy::scene_experiment_keys},
+                                 {"scene_experiment", discrepancy::experiment_keys},
                                  {"verdict", discrepancy::verdict_keys, KeysOf::written_file}};
 
 const KeyPage& page_of(const std::string& page) {

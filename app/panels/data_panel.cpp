@@ -42,7 +42,7 @@ OpenExperiment open_experiment(const Ui& ui) {
   OpenExperiment open;
   const SessionMeasured& measured = ui.session.measured();
   const auto trial = static_cast<std::size_t>(std::max(0, ui.view.measured.trial));
-  if (const discrepancy::SceneExperiment* scene = measured.scene().experiment()) {
+  if (const discrepancy::Experiment* scene = measured.scene().experiment()) {
     open.title = scene->title;
     for (const auto& one : scene->trials) open.trials.push_back(one.name);
     if (trial < scene->trials.size()) open.end = scene->trials[trial].duration();

@@ -132,7 +132,7 @@ void SceneData::plot(Ui& ui, const SceneInstrument& instrument) {
 
 void SceneData::shown(Ui& ui) {
   MeasuredView& view = ui.view.measured;
-  const discrepancy::SceneExperiment& experiment = *ui.session.measured().scene().experiment();
+  const discrepancy::Experiment& experiment = *ui.session.measured().scene().experiment();
   heading(ui, "Shown");
   ImGui::Checkbox("Markers", &view.markers);
   ImGui::Checkbox("Robot and plants of the trial", &view.shape);

@@ -24,8 +24,8 @@ namespace {
 Document document_of(const discrepancy::Experiment& experiment) {
   Document document = empty_document();
   DocumentPlant one;
-  one.entry.name = experiment.plant.name;
-  one.file = std::make_shared<const plant::PlantFile>(experiment.plant);
+  one.entry.name = experiment.plant().name;
+  one.file = std::make_shared<const plant::PlantFile>(experiment.plant());
   document.plants.push_back(std::move(one));
   stand_on_ground(document);
   return document;
@@ -33,7 +33,7 @@ Document document_of(const discrepancy::Experiment& experiment) {
 
 /// The experiment's scene with its plants, to be looked at and changed; the experiment keeps its
 /// own files.
-Document scene_document(const discrepancy::SceneExperiment& experiment, Diagnostics& remarks) {
+Document scene_document(const discrepancy::Experiment& experiment, Diagnostics& remarks) {
   Document document = app::document_of(experiment.scene, remarks);
   for (DocumentPlant& one : document.plants)
     if (one.file) one.entry.file.clear();
@@ -41,9 +41,9 @@ Document scene_document(const discrepancy::SceneExperiment& experiment, Diagnost
 }
 
 /// Whether a document has all plants of a scene, under their names.
-bool has_plants(const Document& document, const discrepancy::SceneExperiment& experiment) {
+bool has_plants(const Document& document, const discrepancy::Experiment& experiment) {
   return document.scene->robot.has_value() &&
-         std::ranges::all_of(experiment.plants, [&](const discrepancy::ScenePlantFile& plant) {
+         std::ranges::all_of(experiment.plants, [&](const discrepancy::ExperimentPlant& plant) {
            const int index = document.plant_index(plant.name);
            if (index < 0) return false;
            const auto& file = document.plants[static_cast<std::size_t>(index)].file;
@@ -88,7 +88,7 @@ SessionMeasured::~SessionMeasured() = default;
 
 int SessionMeasured::plant() const {
   const discrepancy::Experiment* experiment = data_->experiment();
-  return experiment ? find_plant(core_.editor.document(), experiment->plant) : -1;
+  return experiment ? find_plant(core_.editor.document(), experiment->plant()) : -1;
 }
 
 bool SessionMeasured::has_scene() const {
@@ -155,12 +155,11 @@ Result SessionMeasured::finish_reading() {
 Result SessionMeasured::adopt(ExperimentReading& reading) {
   const std::string path = reading.path().string();
   if (!reading.fault().empty()) return {false, path + ": " + reading.fault(), true};
-  if (!reading.experiment() && !reading.scene_experiment())
-    return {false, reading.diagnostics().text(), true};
+  if (!reading.experiment()) return {false, reading.diagnostics().text(), true};
   if (is_diagnosing())
     return {false, path + ": a diagnosis runs, expected it to end or be cancelled"};
-  if (reading.scene_experiment()) return adopt_scene(reading);
-  const bool replaces = find_plant(core_.editor.document(), reading.experiment()->plant) < 0;
+  if (reading.experiment()->has_robot()) return adopt_scene(reading);
+  const bool replaces = find_plant(core_.editor.document(), reading.experiment()->plant()) < 0;
   if (session_.files().dirty() && replaces)
     return {false, path +
                        ": its plant would take the place of changes that are not saved, expected "
@@ -177,19 +176,19 @@ Result SessionMeasured::adopt(ExperimentReading& reading) {
 
 Result SessionMeasured::adopt_scene(ExperimentReading& reading) {
   const std::string path = reading.path().string();
-  const bool replaces = !has_plants(core_.editor.document(), *reading.scene_experiment());
+  const bool replaces = !has_plants(core_.editor.document(), *reading.experiment());
   if (session_.files().dirty() && replaces)
     return {false, path +
                        ": its scene would take the place of changes that are not saved, expected "
                        "them to be saved or taken back"};
   core_.messages.say_remarks(reading.diagnostics());
   Diagnostics remarks;
-  if (replaces) session_.files().begin(scene_document(*reading.scene_experiment(), remarks));
+  if (replaces) session_.files().begin(scene_document(*reading.experiment(), remarks));
   core_.messages.say_remarks(remarks);
   data_->close();
-  scene_->open(*std::move(reading.scene_experiment()));
+  scene_->open(*std::move(reading.experiment()));
   if (core_.options.waits) tell_faults(scene_->wait());
-  const discrepancy::SceneExperiment& e = *scene_->experiment();
+  const discrepancy::Experiment& e = *scene_->experiment();
   return {true, "opened " + path + ": " + counted(e.trials.size(), "trial") + ", " +
                     counted(e.markers.size(), "marker") + ", " +
                     counted(e.cameras.size(), "camera") + ", " +

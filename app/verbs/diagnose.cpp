@@ -13,11 +13,11 @@
 #include "engine/core/exit_code.h"
 #include "engine/core/stop.h"
 #include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/data/experiment.h"
 #include "plugins/discrepancy/data/more_trials.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/procedure/diagnosis.h"
 #include "plugins/discrepancy/report/report.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/select/symptom_numbers.h"
 #include "plugins/plant/plant_file.h"
 
@@ -55,12 +55,9 @@ namespace {
 
 // With the trials that were done afterwards.
 discrepancy::Experiment load_all(const DiagnoseArguments& a) {
-  discrepancy::Experiment experiment = load_experiment(a);
-  for (const std::string& folder : a.with) {
-    ExperimentArguments later;
-    later.experiment = folder;
+  discrepancy::Experiment experiment = load_experiment(a.experiment);
+  for (const std::string& later : a.with)
     discrepancy::add_trials(load_experiment(later), experiment);
-  }
   return experiment;
 }
 
@@ -73,17 +70,17 @@ std::string what_is_seen(const discrepancy::Verdict& verdict) {
 }
 
 int run(DiagnoseArguments& a, const CLI::App& verb) {
-  if (discrepancy::is_scene_experiment(a.experiment)) {
+  const discrepancy::Experiment experiment = load_all(a);
+  if (experiment.has_robot()) {
     if (a.tasks.cluster.wanted() || a.tasks.is_task())
       throw UsageError(a.experiment + ": its model is a scene, expected no --cluster");
-    return diagnose_scene_verb(a, a.with, a.settings, a.time_limit);
+    return diagnose_scene(a, experiment, a.settings, a.time_limit);
   }
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
   const SearchParts parts(a.tasks, a, a.folder("diagnosis_"), verb);
   options.parts = parts.parts();
   if (!a.tasks.is_task()) a.check(a.folder("diagnosis_"), {"report.html", "verdict.json"});
-  const discrepancy::Experiment experiment = load_all(a);
   options.seed = static_cast<std::uint64_t>(a.seed);
   options.time_limit = a.time_limit;
   // From now on a signal ends the search, and what is known is written.

@@ -12,8 +12,8 @@
 #include "engine/core/stop.h"
 #include "engine/io/output_check.h"
 #include "engine/io/output_folder.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 
 namespace pedicel::app {
 
@@ -71,16 +71,22 @@ void add_experiment_options(CLI::App& verb, ExperimentArguments& a, const Experi
   add_instruction_set_option(verb);
 }
 
-discrepancy::Experiment load_experiment(const ExperimentArguments& a) {
-  if (discrepancy::is_scene_experiment(a.experiment))
-    throw UsageError(a.experiment +
-                     ": its model is a scene, a robot at plants, expected an experiment with "
-                     "`plant:`; `pedicel validate`, `observe` and `diagnose` know experiments of "
-                     "scenes");
+discrepancy::Experiment load_experiment(const std::filesystem::path& path,
+                                        const std::filesystem::path& scene) {
   Diagnostics diagnostics;
-  auto experiment = discrepancy::read_experiment(a.experiment, diagnostics);
+  auto experiment = discrepancy::read_experiment(path, diagnostics, {.scene = scene});
   if (!experiment) throw InvalidFile(diagnostics);
   return *std::move(experiment);
+}
+
+discrepancy::Experiment load_plant_experiment(const ExperimentArguments& a) {
+  discrepancy::Experiment experiment = load_experiment(a.experiment);
+  if (experiment.has_robot())
+    throw UsageError(a.experiment +
+                     ": its model is a scene, a robot at plants, expected an experiment with "
+                     "`plant:`; `pedicel validate`, `observe`, `diagnose` and `lab` know "
+                     "experiments of scenes");
+  return experiment;
 }
 
 ProgressLine::Callback ProgressLine::callback(bool quiet) {

@@ -47,8 +47,13 @@ struct ExperimentHelp {
 };
 void add_experiment_options(CLI::App& verb, ExperimentArguments& a, const ExperimentHelp& help);
 
-/// The experiment that was asked for; throws InvalidFile.
-discrepancy::Experiment load_experiment(const ExperimentArguments& a);
+/// An experiment folder, or its experiment.yaml. `scene`: the file of another scene to take in
+/// place of its own. Throws InvalidFile.
+discrepancy::Experiment load_experiment(const std::filesystem::path& path,
+                                        const std::filesystem::path& scene = {});
+/// The experiment that was asked for, without a robot. Throws InvalidFile, and UsageError where it
+/// has one.
+discrepancy::Experiment load_plant_experiment(const ExperimentArguments& a);
 
 /// Says on standard error what is being done, how far it is and how long it will take: on a
 /// terminal in place, elsewhere a line for each new step.

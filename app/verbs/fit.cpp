@@ -26,7 +26,7 @@ struct FitArguments : ExperimentArguments {
 int run(FitArguments& a, const CLI::App& verb) {
   const SearchParts parts(a.tasks, a, a.folder("fit_"), verb);
   if (!a.tasks.is_task()) a.check(a.folder("fit_"), {"fit.json", "fitted.plant.yaml"});
-  const discrepancy::Experiment experiment = load_experiment(a);
+  const discrepancy::Experiment experiment = load_plant_experiment(a);
   const auto starts = discrepancy::requested_starts(experiment, a.parameters);
   discrepancy::ParameterFitOptions options;
   options.seed = static_cast<std::uint64_t>(a.seed);

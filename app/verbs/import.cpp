@@ -17,6 +17,7 @@
 #include "engine/io/output_check.h"
 #include "engine/io/output_folder.h"
 #include "engine/io/unit_text.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/import/experiment_import.h"
 #include "plugins/discrepancy/import/recording_reader.h"
 #include "plugins/discrepancy/import/world_frame.h"

@@ -13,10 +13,10 @@
 #include "engine/io/unit_text.h"
 #include "engine/mcap/reader.h"
 #include "engine/rosbag/reader.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/log_import/log_experiment.h"
 #include "plugins/discrepancy/log_import/log_proposal.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 
 namespace pedicel::app {
 
@@ -89,7 +89,7 @@ void write(const ImportArguments& a, const std::function<void(const fs::path&)>&
 /// meant for.
 void check_written(const fs::path& in, const fs::path& out) {
   Diagnostics found, told;
-  if (discrepancy::read_scene_experiment(in, found) && !found.has_errors()) return;
+  if (discrepancy::read_experiment(in, found) && !found.has_errors()) return;
   for (Diagnostic one : found.all()) {
     const fs::path inside = fs::path(one.where.file).lexically_relative(in);
     if (!inside.empty() && *inside.begin() != "..") one.where.file = (out / inside).string();

@@ -12,10 +12,10 @@
 #include "app/verbs/scene_experiment.h"
 #include "engine/core/stop.h"
 #include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/data/experiment.h"
 #include "plugins/discrepancy/data/more_trials.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/report/report.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 
 namespace pedicel::app {
 
@@ -41,10 +41,9 @@ discrepancy::Experiment answered(const LabArguments& a, const discrepancy::Diagn
 }
 
 int run(const LabArguments& a) {
-  if (discrepancy::is_scene_experiment(a.experiment))
-    return lab_scene_verb(a, a.truth, a.set, a.rounds);
-  discrepancy::Experiment experiment = load_experiment(a);
-  const plant::PlantFile nominal = experiment.plant;
+  discrepancy::Experiment experiment = load_experiment(a.experiment);
+  if (experiment.has_robot()) return lab_scene(a, std::move(experiment), a.truth, a.set, a.rounds);
+  const plant::PlantFile nominal = experiment.plant();
   const std::filesystem::path folder = a.folder("lab_", experiment);
   nlohmann::ordered_json told = nlohmann::ordered_json::array();
   discrepancy::Verdict last;
@@ -65,7 +64,7 @@ int run(const LabArguments& a) {
       if (!a.json) std::cout << name << ": " << headline(last) << std::endl;
       if (!found.next.experiment || round == a.rounds) break;
       discrepancy::Experiment answer = answered(a, found, round);
-      answer.plant = nominal;  // what was measured does not say what the plant is
+      answer.plant() = nominal;  // what was measured does not say what the plant is
       answer.folder = in / name / "next";
       discrepancy::write_experiment(answer.folder, answer);
       discrepancy::add_trials(answer, experiment);

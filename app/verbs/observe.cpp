@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/bench/parallel_worlds.h"
+#include "app/verbs/experiment_run.h"
 #include "app/verbs/run_arguments.h"
 #include "app/verbs/scene_experiment.h"
 #include "engine/core/check.h"
@@ -15,8 +16,8 @@
 #include "engine/io/yaml.h"
 #include "engine/world/scene_reader.h"
 #include "engine/world/settings.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/simulate/simulator.h"
 #include "plugins/effects/registry/effect_definition.h"
 #include "plugins/plant/effect_reader.h"
@@ -29,13 +30,6 @@ namespace {
 
 using discrepancy::Experiment;
 using discrepancy::Trial;
-
-Experiment read_experiment(const std::string& path) {
-  Diagnostics diagnostics;
-  auto experiment = discrepancy::read_experiment(path, diagnostics);
-  if (!experiment) throw InvalidFile(diagnostics);
-  return std::move(*experiment);
-}
 
 /// The one that is asked for; of a single one, that.
 const world::ScenePlant& plant_of(const world::Scene& scene, const std::string& name) {
@@ -64,32 +58,39 @@ plant::PlantFile scene_plant(const world::ScenePlant& wanted, Diagnostics& diagn
   return std::move(*plant);
 }
 
+/// What a file says of itself; of a folder, that it is an experiment.
+std::string format_of(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) return "pedicel-experiment";
+  Diagnostics diagnostics;
+  const io::YamlNode root = io::load_yaml(file, diagnostics);
+  return root.is_map() && root.raw()["format"] ? root.raw()["format"].Scalar() : "";
+}
+
 /// The plant to simulate, in the place of the one that `experiment` has.
 void take_plant(const ObserveArguments& a, Experiment& experiment) {
   const std::filesystem::path model = a.model;
   Diagnostics diagnostics;
-  std::string format = "pedicel-experiment";
-  if (!std::filesystem::is_directory(model)) {
-    const io::YamlNode root = io::load_yaml(model, diagnostics);
-    format = root.is_map() && root.raw()["format"] ? root.raw()["format"].Scalar() : "";
-  }
+  const std::string format = format_of(model);
   if (!a.plant.empty() && format != "pedicel-scene")
     throw UsageError("--plant: " + a.model + " is no scene, expected *.scene.yaml");
   if (format == "pedicel-experiment") {
-    Experiment other = read_experiment(a.model);
-    experiment.plant = std::move(other.plant);
-    experiment.plant_path = other.plant_path;
+    Experiment other = load_experiment(model);
+    if (other.has_robot())
+      throw UsageError("observe " + a.model +
+                       ": its model is a scene, expected a plant or an "
+                       "experiment of one");
+    experiment.plants = std::move(other.plants);
   } else if (format == "pedicel-plant") {
     auto plant = plant::read_plant_file(model, diagnostics);
     if (!plant) throw InvalidFile(diagnostics);
-    experiment.plant = std::move(*plant);
-    experiment.plant_path = model;
+    experiment.plant() = std::move(*plant);
+    experiment.plants.front().path = model;
   } else if (format == "pedicel-scene") {
     const std::optional<world::Scene> scene = world::read_scene(model, diagnostics);
     if (!scene) throw InvalidFile(diagnostics);
     const world::ScenePlant& wanted = plant_of(*scene, a.plant);
-    experiment.plant = scene_plant(wanted, diagnostics);
-    experiment.plant_path = simulation::source_of(wanted);
+    experiment.plant() = scene_plant(wanted, diagnostics);
+    experiment.plants.front().path = simulation::source_of(wanted);
   } else {
     throw UsageError("observe " + a.model + ": format is \"" + format +
                      "\", expected pedicel-plant, pedicel-scene or pedicel-experiment");
@@ -197,10 +198,16 @@ discrepancy::Experiment observed(const ObserveArguments& a, discrepancy::Experim
   return like;
 }
 
+std::filesystem::path scene_of(const std::filesystem::path& model) {
+  return format_of(model) == "pedicel-experiment" ? load_experiment(model).scene.file : model;
+}
+
 int observe_verb(const ObserveArguments& a) {
-  if (discrepancy::is_scene_experiment(a.like)) return observe_scene_verb(a);
   io::check_output_folder(a.out, {"experiment.yaml", "plant.yaml"});
-  const Experiment experiment = observed(a, read_experiment(a.like));
+  Experiment experiment = load_experiment(a.like);
+  experiment = experiment.has_robot()
+                   ? observed_scene(a, load_experiment(a.like, scene_of(a.model)))
+                   : observed(a, std::move(experiment));
   stop_in_good_order();
   const std::string replaced = io::write_folder(a.out, [&](const std::filesystem::path& in) {
     discrepancy::write_experiment(in, experiment);

@@ -43,6 +43,9 @@ int observe_verb(const ObserveArguments& arguments);
 /// `like` has no sample at all, it is a plan, and all of it is filled.
 discrepancy::Experiment observed(const ObserveArguments& arguments, discrepancy::Experiment like);
 
+/// The scene to simulate: the file itself, or the scene of an experiment. Throws InvalidFile.
+std::filesystem::path scene_of(const std::filesystem::path& model);
+
 /// Adds noise of the given marginal standard deviation to each column, white or AR(1); gaps stay.
 void add_noise(discrepancy::Samples& samples, double deviation, double colour, std::uint64_t seed);
 

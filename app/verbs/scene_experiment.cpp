@@ -8,15 +8,12 @@
 #include "engine/core/check.h"
 #include "engine/core/stop.h"
 #include "engine/io/atomic_file.h"
-#include "engine/io/output_check.h"
-#include "engine/io/output_folder.h"
 #include "engine/io/yaml.h"
+#include "plugins/discrepancy/data/more_trials.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/report/scene_diagnosis_files.h"
 #include "plugins/discrepancy/report/scene_report.h"
 #include "plugins/discrepancy/scene/scene_effects.h"
-#include "plugins/discrepancy/scene_files/more_scene_trials.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "plugins/discrepancy/scene_predict/scene_observe.h"
 #include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
@@ -25,20 +22,13 @@ namespace pedicel::app {
 
 namespace {
 
-using discrepancy::SceneExperiment;
+using discrepancy::Experiment;
 
 std::string counted(std::size_t count, const std::string& one) {
   return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
-SceneExperiment read_whole(const std::filesystem::path& path, const std::filesystem::path& scene) {
-  Diagnostics diagnostics;
-  auto experiment = discrepancy::read_scene_experiment(path, diagnostics, scene);
-  if (!experiment) throw InvalidFile(diagnostics);
-  return std::move(*experiment);
-}
-
-plant::Effect parse_effect(const std::string& text, const SceneExperiment& experiment) {
+plant::Effect parse_effect(const std::string& text, const Experiment& experiment) {
   Diagnostics diagnostics;
   plant::Effect effect =
       discrepancy::read_scene_effect(io::parse_yaml(text, "--set", diagnostics), experiment);
@@ -46,44 +36,31 @@ plant::Effect parse_effect(const std::string& text, const SceneExperiment& exper
   return effect;
 }
 
-// The scene to simulate; empty: the experiment's own.
-std::filesystem::path scene_of(const std::filesystem::path& model) {
-  if (discrepancy::is_scene_experiment(model)) {
-    const SceneExperiment other = read_whole(model, {});
-    return other.scene.file;
-  }
-  return model;
-}
-
 }  // namespace
 
-std::string check_scene_experiment(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  const auto experiment = discrepancy::read_scene_experiment(path, diagnostics);
-  if (!experiment) return {};
+std::string check_scene_experiment(const Experiment& experiment, Diagnostics& diagnostics) {
   // Builds the plants and smooths the readings, and simulates nothing.
   try {
-    const discrepancy::SceneSimulator simulator(*experiment, {}, 1);
+    const discrepancy::SceneSimulator simulator(experiment, {}, 1);
   } catch (const InvalidFile& fault) {
     diagnostics.add(fault);
     return {};
   }
-  const discrepancy::SceneDataSet data(*experiment);
+  const discrepancy::SceneDataSet data(experiment);
   int samples = 0;
-  for (int t = 0; t < static_cast<int>(experiment->trials.size()); ++t)
+  for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t)
     samples += data.samples(t, std::numeric_limits<double>::infinity());
-  return "a robot at " + counted(experiment->plants.size(), "plant") + ": " +
-         counted(experiment->trials.size(), "trial") + ", " +
-         counted(experiment->markers.size(), "marker") + ", " +
-         counted(experiment->cameras.size(), "camera") + ", " +
-         counted(experiment->wrenches.size(), "wrench sensor") + ", " + std::to_string(samples) +
+  return "a robot at " + counted(experiment.plants.size(), "plant") + ": " +
+         counted(experiment.trials.size(), "trial") + ", " +
+         counted(experiment.markers.size(), "marker") + ", " +
+         counted(experiment.cameras.size(), "camera") + ", " +
+         counted(experiment.wrenches.size(), "wrench sensor") + ", " + std::to_string(samples) +
          " numbers measured";
 }
 
-int observe_scene_verb(const ObserveArguments& a) {
+Experiment observed_scene(const ObserveArguments& a, const Experiment& like) {
   if (!a.plant.empty())
     throw UsageError("--plant: " + a.like + " has a whole scene, expected no single plant of it");
-  const SceneExperiment like = read_whole(a.like, scene_of(a.model));
-  io::check_output_folder(a.out, {"experiment.yaml"});
   discrepancy::SceneVariant variant;
   for (const std::string& text : a.set) variant.effects.push_back(parse_effect(text, like));
   discrepancy::SceneObserveOptions options;
@@ -91,32 +68,17 @@ int observe_scene_verb(const ObserveArguments& a) {
   options.numerics.dt = a.dt;
   options.seed = a.seed;
   options.threads = a.threads;
-  SceneExperiment made;
   try {
-    made = discrepancy::observed_scene(like, variant, options);
+    return discrepancy::observed_scene(like, variant, options);
   } catch (const discrepancy::SceneFailed& fault) {
     throw UnstableWorld(fault.what());
   }
-  stop_in_good_order();
-  const std::string replaced = io::write_folder(a.out, [&](const std::filesystem::path& in) {
-    discrepancy::write_scene_experiment(in, made);
-  });
-  if (!replaced.empty()) std::fprintf(stderr, "%s\n", replaced.c_str());
-  std::fprintf(stderr, "written to %s\n", a.out.c_str());
-  return 0;
 }
 
 namespace {
 
-std::filesystem::path folder_of(const ExperimentArguments& a, const std::string& prefix,
-                                const SceneExperiment& experiment) {
-  if (!a.out.empty()) return a.out;
-  return std::filesystem::path("out") /
-         (prefix + std::filesystem::absolute(experiment.folder).filename().string());
-}
-
-void check_fitted(const ExperimentArguments& a, const SceneExperiment& experiment) {
-  if (std::ranges::all_of(experiment.trials, [](const discrepancy::SceneTrial& trial) {
+void check_fitted(const ExperimentArguments& a, const Experiment& experiment) {
+  if (std::ranges::all_of(experiment.trials, [](const discrepancy::Trial& trial) {
         return trial.use == discrepancy::Trial::Use::check;
       }))
     throw UsageError(a.experiment + ": every trial has use: check, expected one to be fitted");
@@ -124,14 +86,12 @@ void check_fitted(const ExperimentArguments& a, const SceneExperiment& experimen
 
 }  // namespace
 
-int diagnose_scene_verb(const ExperimentArguments& a, const std::vector<std::string>& with,
-                        const std::vector<std::string>& settings, double time_limit) {
+int diagnose_scene(const ExperimentArguments& a, const Experiment& experiment,
+                   const std::vector<std::string>& settings, double time_limit) {
   discrepancy::SceneDiagnosisOptions options;
   for (const std::string& one : settings) discrepancy::set_setting(options.settings, one);
-  SceneExperiment experiment = read_whole(a.experiment, {});
-  for (const std::string& later : with) discrepancy::add_trials(read_whole(later, {}), experiment);
   check_fitted(a, experiment);
-  const std::filesystem::path folder = folder_of(a, "diagnosis_", experiment);
+  const std::filesystem::path folder = a.folder("diagnosis_");
   a.check(folder, {"report.html", "verdict.json", "findings.txt"});
   options.threads = a.thread_count();
   options.time_limit = time_limit;
@@ -162,8 +122,8 @@ namespace {
 class SceneLab {
  public:
   SceneLab(const ExperimentArguments& a, const std::string& truth,
-           const std::vector<std::string>& set)
-      : a_(a), truth_(scene_of(truth)), set_(set), experiment_(read_whole(a.experiment, {})) {
+           const std::vector<std::string>& set, Experiment experiment)
+      : a_(a), truth_(scene_of(truth)), set_(set), experiment_(std::move(experiment)) {
     check_fitted(a, experiment_);
   }
 
@@ -185,7 +145,6 @@ class SceneLab {
     io::write_file_atomically(in / "lab.json", told_.dump(2) + "\n");
   }
 
-  std::filesystem::path folder() const { return folder_of(a_, "lab_", experiment_); }
   bool stopped() const { return stopped_; }
   const discrepancy::Verdict& last() const { return last_; }
   std::string told() const { return told_.dump(2); }
@@ -206,33 +165,24 @@ class SceneLab {
   // The motion that was asked for, on the truth, with the noise that the instruments have shown;
   // what was measured takes the place of the plan's empty tables.
   void answer(const std::filesystem::path& plan, const discrepancy::SceneNext& next, int round) {
-    SceneExperiment like = read_whole(plan, truth_);
+    Experiment like = load_experiment(plan, truth_);
     like.noise = next.noise;
-    discrepancy::SceneVariant variant;
-    for (const std::string& text : set_) variant.effects.push_back(parse_effect(text, like));
-    const ObserveArguments usual;
-    discrepancy::SceneObserveOptions options;
-    options.numerics.distance = usual.distance;
-    options.numerics.dt = usual.dt;
-    options.seed =
+    ObserveArguments observe;
+    observe.set = set_;
+    observe.seed =
         static_cast<std::uint64_t>(a_.seed) + 1000u * static_cast<std::uint64_t>(round + 1);
-    options.threads = a_.thread_count();
-    SceneExperiment measured =
-        *next.experiment;  // what was measured does not say what the truth is
-    try {
-      measured.trials = discrepancy::observed_scene(std::move(like), variant, options).trials;
-    } catch (const discrepancy::SceneFailed& fault) {
-      throw UnstableWorld(fault.what());
-    }
+    observe.threads = a_.thread_count();
+    Experiment measured = *next.experiment;  // what was measured does not say what the truth is
+    measured.trials = observed_scene(observe, like).trials;
     measured.folder = plan;
-    discrepancy::write_scene_experiment(plan, measured);
+    discrepancy::write_experiment(plan, measured);
     discrepancy::add_trials(measured, experiment_);
   }
 
   const ExperimentArguments& a_;
   std::filesystem::path truth_;  // a scene
   const std::vector<std::string>& set_;
-  SceneExperiment experiment_;
+  Experiment experiment_;
   nlohmann::ordered_json told_ = nlohmann::ordered_json::array();
   discrepancy::Verdict last_;
   bool stopped_ = false;
@@ -240,10 +190,10 @@ class SceneLab {
 
 }  // namespace
 
-int lab_scene_verb(const ExperimentArguments& a, const std::string& truth,
-                   const std::vector<std::string>& set, int rounds) {
-  SceneLab lab(a, truth, set);
-  const std::filesystem::path folder = lab.folder();
+int lab_scene(const ExperimentArguments& a, Experiment experiment, const std::string& truth,
+              const std::vector<std::string>& set, int rounds) {
+  SceneLab lab(a, truth, set, std::move(experiment));
+  const std::filesystem::path folder = a.folder("lab_");
   a.write(folder, [&](const std::filesystem::path& in) { lab.play(in, rounds); });
   if (lab.stopped()) return stop_exit_code();
   if (a.json)

@@ -38,7 +38,7 @@ std::string row(const char* trials, const discrepancy::Errors& errors) {
 
 int run(const TransferArguments& a) {
   const plant::PlantFile extended = load_plant(a.extended);
-  const discrepancy::Experiment experiment = load_experiment(a);
+  const discrepancy::Experiment experiment = load_plant_experiment(a);
   const std::filesystem::path folder = a.folder("transfer_", experiment);
   a.check(folder, {"transfer.json"});
   discrepancy::TransferOptions options;

@@ -17,8 +17,8 @@
 #include "engine/world/scene_reader.h"
 #include "engine/world/variation.h"
 #include "plugins/discrepancy/admission/admission.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/plant/leaf_template.h"
 #include "plugins/plant/plant_builder.h"
 #include "plugins/simulation/large_plant.h"
@@ -106,10 +106,10 @@ std::string check_scene(const std::filesystem::path& path, const Options& given,
 // The plant is built, too.
 std::string check_experiment(const std::filesystem::path& path, const Options& given,
                              Diagnostics& diagnostics) {
-  if (discrepancy::is_scene_experiment(path)) return check_scene_experiment(path, diagnostics);
   const auto experiment = discrepancy::read_experiment(path, diagnostics);
   if (!experiment) return {};
-  check_plant(experiment->plant_path, given, diagnostics);
+  if (experiment->has_robot()) return check_scene_experiment(*experiment, diagnostics);
+  check_plant(experiment->plants.front().path, given, diagnostics);
   // What a diagnosis would refuse.
   discrepancy::add_refusal(diagnostics, discrepancy::admit(*experiment));
   int samples = 0;

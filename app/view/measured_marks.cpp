@@ -35,9 +35,9 @@ BeadSizes bead_sizes(double stem_radius, bool chosen) {
 /// The radius (m) of the stem at each marker.
 std::vector<double> stem_radii(const discrepancy::Experiment& experiment) {
   std::vector<double> radii;
-  const auto curves = plant::make_curves(experiment.plant);
+  const auto curves = plant::make_curves(experiment.plant());
   for (const discrepancy::Marker& marker : experiment.markers) {
-    const int c = plant::find_stem(experiment.plant, marker.place.curve);
+    const int c = plant::find_stem(experiment.plant(), marker.place.curve);
     const auto i = static_cast<std::size_t>(std::max(c, 0));
     radii.push_back(c < 0 ? 0.0 : curves[i].radius(marker.place.at * curves[i].length()));
   }
@@ -91,7 +91,7 @@ void MeasuredMarks::follow(const Session& session,
   const MeasuredData& data = session.measured().data();
   if (places_.model == model && places_.number == data.number()) return;
   places_ = {model, data.number(), {}};
-  const plant::StemPicker picker(data.experiment()->plant);
+  const plant::StemPicker picker(data.experiment()->plant());
   const Pose X_PW = place_W.inverse();
   for (const cosserat::Element& element : model->elements) {
     constexpr double reach = 0.02;  // m; leaves and what is farther off have no residual
@@ -123,7 +123,7 @@ void MeasuredMarks::update(ViewState& view, const Session& session, const Snapsh
   }
   if (stem_radii_.size() != data.experiment()->markers.size() || radii_of_ != data.number())
     stem_radii_ = stem_radii(*data.experiment()), radii_of_ = data.number();
-  const double beside = width_of(data.experiment()->plant);
+  const double beside = width_of(data.experiment()->plant());
   for (const int model : shown_models(data, view.measured)) {
     add_model(data, view, model, place_W);
     place_W.position.x() += beside;
@@ -144,7 +144,7 @@ void MeasuredMarks::add_shape(const MeasuredData& data, const MeasuredInstant& i
                               const ViewState& view, int model, const Pose& place_W) {
   const TrialPath* path = data.path(static_cast<Model>(model), view.measured.trial);
   if (!path || instant.shape.empty()) return;
-  const auto& curves = data.experiment()->plant.curves;
+  const auto& curves = data.experiment()->plant().curves;
   const bool coloured = view.colours == ColourMap::residual && view.measured.residual_scale > 0.0;
   for (const ShapeCurve& curve : data.shape()) {
     std::vector<render::TubePoint> points;

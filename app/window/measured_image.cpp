@@ -41,7 +41,7 @@ void draw_edges(const discrepancy::Camera& camera, const SceneFrame& frame) {
 }  // namespace
 
 int measured_camera(const Session& session, const std::string& name) {
-  const discrepancy::SceneExperiment* experiment = session.measured().scene().experiment();
+  const discrepancy::Experiment* experiment = session.measured().scene().experiment();
   if (!experiment) return -1;
   const auto& cameras = experiment->cameras;
   const auto found = std::ranges::find(cameras, name, &discrepancy::Camera::name);
@@ -49,7 +49,7 @@ int measured_camera(const Session& session, const std::string& name) {
 }
 
 const discrepancy::Camera* looked_through(const Ui& ui) {
-  const discrepancy::SceneExperiment* experiment = ui.session.measured().scene().experiment();
+  const discrepancy::Experiment* experiment = ui.session.measured().scene().experiment();
   const int camera = ui.view.measured.camera;
   if (!experiment || camera < 0 || camera >= static_cast<int>(experiment->cameras.size()))
     return nullptr;

@@ -2,7 +2,7 @@
 
 #include "app/ui/ui.h"
 #include "app/view/scene_mouse.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::app {
 

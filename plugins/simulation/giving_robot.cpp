@@ -5,8 +5,8 @@ namespace pedicel::simulation {
 namespace {
 
 // The robot as it stands in the run: what effects change of it is in its description already.
-discrepancy::SceneExperiment only_robot(const RobotControl& robot) {
-  discrepancy::SceneExperiment experiment;
+discrepancy::Experiment only_robot(const RobotControl& robot) {
+  discrepancy::Experiment experiment;
   experiment.robot = robot.description();
   experiment.scene.robot.emplace();
   experiment.scene.robot->base = robot.robot().model().base_pose();

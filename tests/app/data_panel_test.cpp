@@ -4,8 +4,8 @@
 #include "app/session/session_measured.h"
 #include "app/view/measured_marks.h"
 #include "app/window/measured_image.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/scene/camera.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
 #include "tests/app/cut_text.h"
 #include "tests/app/desk.h"
 #include "tests/app/words.h"
@@ -214,9 +214,9 @@ class SceneDataPanelTest : public DataPanelTest {
  protected:
   void open_push(double k1 = 0.0) {
     pedicel::testing::MeasuredPush push;
-    discrepancy::SceneExperiment e = push.experiment();
+    discrepancy::Experiment e = push.experiment();
     e.cameras.at(0).distortion[0] = k1;
-    discrepancy::write_scene_experiment(folder_ / "push", e);
+    discrepancy::write_experiment(folder_ / "push", e);
     desk_.open(folder_ / "push");
     if (desk_.session().measured().reading()) desk_.session().measured().finish_reading();
     desk_.session().measured().scene().wait();

@@ -97,14 +97,14 @@ Experiment cane_experiment(const std::vector<CanePush>& pushes) {
   std::ranges::sort(up, {}, &CanePush::height);
   const CanePush& low = up.front();
   Experiment experiment;
-  experiment.plant.name = "cane";
-  experiment.plant.shape = plant::Shape::rest;
+  experiment.plant().name = "cane";
+  experiment.plant().shape = plant::Shape::rest;
   // As stiff as the lowest push says: F = 3 E I / h^3 x.
   const double inertia = std::numbers::pi / 64.0 * std::pow(low.diameter, 4);
-  experiment.plant.material = {low.stiffness * std::pow(low.height, 3) / (3.0 * inertia), 0.3,
-                               800.0, 0.01};
-  experiment.plant.connect = 0.001;
-  experiment.plant.distance = 0.02;
+  experiment.plant().material = {low.stiffness * std::pow(low.height, 3) / (3.0 * inertia), 0.3,
+                                 800.0, 0.01};
+  experiment.plant().connect = 0.001;
+  experiment.plant().distance = 0.02;
   plant::PlantCurve curve;
   curve.name = "cane";
   curve.interpolation = plant::Interpolation::linear;
@@ -114,7 +114,7 @@ Experiment cane_experiment(const std::vector<CanePush>& pushes) {
     curve.points.push_back(Vec3(0, 0, push.height));
     curve.radius.push_back(0.5 * push.diameter);
   }
-  experiment.plant.curves = {curve};
+  experiment.plant().curves = {curve};
   const double length = up.back().height;
   for (const CanePush& push : up)
     experiment.markers.push_back(

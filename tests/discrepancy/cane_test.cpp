@@ -93,7 +93,7 @@ CaneFit fit_cane(const std::vector<CanePush>& pushes) {
   // The model without is the limit of both.
   result.with_base = std::min(rms(base), result.alone);
   result.graded = std::min(rms(with("stiffness_gradient")), result.alone);
-  result.modulus = *experiment.plant.material.youngs_modulus * alone.hypothesis.value(0);
+  result.modulus = *experiment.plant().material.youngs_modulus * alone.hypothesis.value(0);
   result.base = base.hypothesis.value(1);
   result.exponent = exponent_of(pushes);
   return result;

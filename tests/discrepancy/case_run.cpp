@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/procedure/diagnosis.h"
 #include "plugins/discrepancy/select/evidence.h"
 #include "plugins/effects/registry/effect_definition.h"

@@ -57,7 +57,7 @@ DrivenPath drawn_away(double angle) {
 
 Experiment pulls() {
   Experiment experiment;
-  experiment.plant = twig();
+  experiment.plant() = twig();
   experiment.noise = {position_noise, force_noise};
   for (const double at : {0.4, 0.75, 1.0})
     experiment.markers.push_back(
@@ -81,7 +81,7 @@ Experiment pulls() {
 
 void measure(Experiment& experiment, const Variant& truth) {
   // With the nodes that the plant file has, at which a law is told.
-  Simulator simulator(experiment, {experiment.plant.distance, 1.0 / 1200, 0.0}, 2);
+  Simulator simulator(experiment, {experiment.plant().distance, 1.0 / 1200, 0.0}, 2);
   std::vector<Simulator::Request> requests;
   for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t)
     requests.push_back({&truth, t});

@@ -18,7 +18,7 @@ constexpr double interval = 0.01;  // s
 /// A stem that leans, with five markers.
 Experiment stem() {
   Experiment experiment;
-  plant::PlantFile& plant = experiment.plant;
+  plant::PlantFile& plant = experiment.plant();
   plant.name = "stem";
   plant.shape = plant::Shape::rest;
   plant.material = {4.0e8, 0.35, 750.0, 0.01};

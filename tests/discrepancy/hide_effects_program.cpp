@@ -6,6 +6,7 @@
 
 #include "engine/io/atomic_file.h"
 #include "engine/io/yaml.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/plant/effect_reader.h"
 #include "tests/discrepancy/resimulated.h"
 

@@ -107,7 +107,7 @@ TEST(MovingStart, LooksThroughTheInstruments) {
 // solver; the record begins in mid swing.
 TEST(MovingStart, FollowsALargeSwingOfAnotherSolver) {
   Experiment experiment = experiment_of({0.4, 0.003, 2.0e8, 800.0, 0.01}, 1.5, 0.01);
-  plant::PlantFile& plant = experiment.plant;
+  plant::PlantFile& plant = experiment.plant();
   plant.curves[0].points = {Vec3(0, 0, 0), Vec3(0.05, 0, 0.2), Vec3(0.12, 0, 0.38)};
   experiment.markers = {{"a", on_stem(0.3)}, {"b", on_stem(0.6)}, {"c", on_stem(1.0)}};
   reference::TrialPlan plan;
@@ -291,7 +291,7 @@ TEST(RootWrench, CarriesTheInertiaOfThePlant) {
   }
   trial.base = base;
   trial.wrench = testing::empty_samples(2.0, 0.05, 6);
-  experiment.plant.material.damping_time = 0.02;
+  experiment.plant().material.damping_time = 0.02;
   const Prediction found = predict(experiment, {}, {0.02, 1.0 / 1000});
   const double mass = beam.mass_per_length() * beam.length;
   for (int s = 10; s <= 30; ++s) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "tests/discrepancy/hidden_case.h"
 #include "tests/discrepancy/reference_plants.h"
 #include "tests/support/temporary_folder.h"

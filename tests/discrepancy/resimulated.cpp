@@ -74,8 +74,8 @@ void follow_plant(Trial& trial, const Subject& hidden, const Mesh& mesh) {
 Experiment resimulated(Experiment experiment, const std::vector<plant::Effect>& effects,
                        const std::vector<reference::OutsideEffect>& outside,
                        const MeasuringOptions& options) {
-  const Mesh mesh{options.mesh * experiment.plant.distance, options.dt};
-  const Subject hidden{experiment.plant, effects, outside};
+  const Mesh mesh{options.mesh * experiment.plant().distance, options.dt};
+  const Subject hidden{experiment.plant(), effects, outside};
   const double position_std = experiment.noise.position_std.value_or(0.0);
   const double force_std = experiment.noise.force_std.value_or(0.0);
   std::vector<reference::MarkerPlan> markers;

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 #include "tests/support/places.h"
 
@@ -17,7 +17,7 @@ class ScenePractice : public ::testing::Test {
         pedicel::test::shared_folder() / "data/scene_practice" / name;
     if (!std::filesystem::exists(folder)) return {};
     Diagnostics diagnostics;
-    const auto experiment = read_scene_experiment(folder, diagnostics);
+    const auto experiment = read_experiment(folder, diagnostics);
     if (!experiment) throw InvalidFile(diagnostics);
     SceneDiagnosisOptions options;
     options.threads = 2;

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/procedure/diagnosis.h"
 #include "plugins/discrepancy/simulate/simulator.h"
 #include "plugins/discrepancy/test/oscillation.h"

@@ -1,5 +1,6 @@
 #include "plugins/discrepancy/data/experiment.h"
 
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "tests/fuzz/reading.h"
 
 using namespace pedicel;

@@ -1,9 +1,8 @@
-#include "plugins/discrepancy/scene/scene_experiment.h"
-
 #include <array>
 
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/scene/scene_state.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "tests/fuzz/reading.h"
 
 using namespace pedicel;
@@ -43,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const char* name : names) std::filesystem::remove(folder.path() / name);
   write_files(folder, fuzz::text_of(data, size));
   Diagnostics diagnostics;
-  const auto experiment = discrepancy::read_scene_experiment(folder.path(), diagnostics);
+  const auto experiment = discrepancy::read_experiment(folder.path(), diagnostics);
   fuzz::require_answer(experiment, diagnostics);
   if (!experiment) return 0;
   try {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/scene_predict/scene_observe.h"
 #include "tests/unit/discrepancy_scene/arm_at_stem.h"
 
@@ -11,9 +11,9 @@ struct MeasuredPush {
   std::vector<std::string> effects;  ///< that the files lack: "{name: contact_friction, ...}"
   discrepancy::ArmAtStem at{};
 
-  discrepancy::SceneExperiment experiment() const {
+  discrepancy::Experiment experiment() const {
     at.write_all();
-    const discrepancy::SceneExperiment plain = at.read();
+    const discrepancy::Experiment plain = at.read();
     discrepancy::SceneVariant variant;
     for (const std::string& text : effects)
       variant.effects.push_back(discrepancy::scene_effect(text, plain));
@@ -22,7 +22,7 @@ struct MeasuredPush {
 
   /// As a folder; its path.
   std::filesystem::path write(const std::filesystem::path& folder) const {
-    discrepancy::write_scene_experiment(folder, experiment());
+    discrepancy::write_experiment(folder, experiment());
     return folder;
   }
 };

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "engine/core/random.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/simulate/simulator.h"
 #include "tests/unit/discrepancy/beam_experiment.h"
 

@@ -13,7 +13,7 @@ FOLDERS = ("app/", "plugins/")
 KEYS = {"youngs_modulus", "density", "damping_time", "wind", "latency"}
 DIAGNOSIS = "plugins/discrepancy/"
 # The diagnosis of scenes reads files that have these keys.
-OTHERS = {("plugins/discrepancy/scene_files/scene_experiment_reader.cpp", "wind")}
+OTHERS = {("plugins/discrepancy/files/experiment_lists.cpp", "wind")}
 STRING = re.compile(r"//[^\n]*|\"((?:[^\"\\\n]|\\.)*)\"")
 
 

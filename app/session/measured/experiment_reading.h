@@ -6,7 +6,6 @@
 
 #include "app/session/measured/background_job.h"
 #include "plugins/discrepancy/data/experiment.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::app {
 
@@ -24,9 +23,8 @@ class ExperimentReading {
   bool has_ended() const { return job_.has_ended(); }
 
   // Once it has ended.
-  /// Both are nothing where there were faults, or it was cancelled; else one of them is there.
+  /// Nothing where there were faults, or it was cancelled.
   std::optional<discrepancy::Experiment>& experiment() { return experiment_; }
-  std::optional<discrepancy::SceneExperiment>& scene_experiment() { return scene_experiment_; }
   const Diagnostics& diagnostics() const { return diagnostics_; }
   const std::string& fault() const { return job_.fault(); }
 
@@ -34,7 +32,6 @@ class ExperimentReading {
   std::filesystem::path path_;
   std::atomic<int> done_{0}, all_{0};
   std::optional<discrepancy::Experiment> experiment_;
-  std::optional<discrepancy::SceneExperiment> scene_experiment_;
   Diagnostics diagnostics_;
   BackgroundJob job_;  // last: ends before what it writes to
 };

@@ -21,8 +21,8 @@ const char* model_name(Model model) {
 
 void MeasuredData::open(discrepancy::Experiment experiment) {
   take(std::move(experiment));
-  shape_ = shape_of(experiment_->plant);
-  run({discrepancy::nominal}, {{}}, {experiment_->plant.distance, first_dt});
+  shape_ = shape_of(experiment_->plant());
+  run({discrepancy::nominal}, {{}}, {experiment_->plant().distance, first_dt});
 }
 
 void MeasuredData::close() {
@@ -59,7 +59,7 @@ std::optional<plant::PlantFile> MeasuredData::extended_plant() const {
       diagnosis_->verdict.outcome == Outcome::numerical)
     return std::nullopt;
   plant::PlantFile plant = discrepancy::extended_plant(*experiment_, diagnosis_->best.hypothesis);
-  if (plant.effects == experiment_->plant.effects) return std::nullopt;
+  if (plant.effects == experiment_->plant().effects) return std::nullopt;
   return plant;
 }
 

@@ -9,7 +9,7 @@ namespace pedicel::app {
 
 using discrepancy::Model;
 
-void MeasuredScene::open(discrepancy::SceneExperiment experiment) {
+void MeasuredScene::open(discrepancy::Experiment experiment) {
   close();
   take(std::move(experiment));
   shapes_ = shapes_of(*experiment_);

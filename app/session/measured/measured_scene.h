@@ -12,10 +12,10 @@ namespace pedicel::app {
 
 /// A measured run of a robot at plants: what the models say of it, and a diagnosis.
 class MeasuredScene final
-    : public MeasuredModels<discrepancy::SceneExperiment, ScenePath, discrepancy::SceneDiagnosis> {
+    : public MeasuredModels<discrepancy::Experiment, ScenePath, discrepancy::SceneDiagnosis> {
  public:
   /// Takes an experiment in place of the one before, and begins to simulate it as its files say.
-  void open(discrepancy::SceneExperiment experiment);
+  void open(discrepancy::Experiment experiment);
   void close();
   const std::vector<ScenePlantShape>& shapes() const { return shapes_; }
   /// Poses of the robot's links at a time (s) of a trial, as its joints were measured, into `out`.

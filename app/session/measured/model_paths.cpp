@@ -31,9 +31,10 @@ double radius_at(const plant::PlantCurve& curve, double at) {
 /// The experiment with the points of its plant as further markers that nobody has measured.
 discrepancy::Experiment with_shape(discrepancy::Experiment experiment) {
   const auto measured = static_cast<Eigen::Index>(experiment.markers.size());
-  for (const ShapeCurve& curve : shape_of(experiment.plant))
+  for (const ShapeCurve& curve : shape_of(experiment.plant()))
     for (const double at : curve.at) {
-      const std::string& name = experiment.plant.curves[static_cast<std::size_t>(curve.curve)].name;
+      const std::string& name =
+          experiment.plant().curves[static_cast<std::size_t>(curve.curve)].name;
       experiment.markers.push_back({"", {name, at, {}}});
     }
   const auto all = static_cast<Eigen::Index>(experiment.markers.size());

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-const discrepancy::SceneTrial* trial_of(const MeasuredScene& scene, int trial) {
-  const discrepancy::SceneExperiment* experiment = scene.experiment();
+const discrepancy::Trial* trial_of(const MeasuredScene& scene, int trial) {
+  const discrepancy::Experiment* experiment = scene.experiment();
   if (!experiment || trial < 0 || trial >= static_cast<int>(experiment->trials.size()))
     return nullptr;
   return &experiment->trials[static_cast<std::size_t>(trial)];
@@ -35,7 +35,7 @@ Eigen::RowVectorXd row_at(const std::vector<double>& time, const Eigen::MatrixXd
 SceneInstant scene_instant_of(const MeasuredScene& scene, int trial, discrepancy::Model model,
                               double time) {
   SceneInstant instant;
-  const discrepancy::SceneTrial* own = trial_of(scene, trial);
+  const discrepancy::Trial* own = trial_of(scene, trial);
   if (!own) return instant;
   const ScenePath* path = scene.path(model, trial);
   const Eigen::RowVectorXd seen = row_at(own->markers.time, own->markers.value, time);
@@ -53,7 +53,7 @@ SceneInstant scene_instant_of(const MeasuredScene& scene, int trial, discrepancy
 std::vector<ImageInstant> image_instant_of(const MeasuredScene& scene, int trial,
                                            discrepancy::Model model, int camera, double time) {
   std::vector<ImageInstant> all;
-  const discrepancy::SceneTrial* own = trial_of(scene, trial);
+  const discrepancy::Trial* own = trial_of(scene, trial);
   if (!own || camera < 0 || camera >= static_cast<int>(own->pixels.size())) return all;
   const auto c = static_cast<std::size_t>(camera);
   const discrepancy::Samples& image = own->pixels[c];
@@ -70,7 +70,7 @@ std::vector<ImageInstant> image_instant_of(const MeasuredScene& scene, int trial
 MeasuredSeries scene_series_of(const MeasuredScene& scene, int trial,
                                const SceneInstrument& instrument, int column) {
   MeasuredSeries series;
-  const discrepancy::SceneTrial* own = trial_of(scene, trial);
+  const discrepancy::Trial* own = trial_of(scene, trial);
   if (!own || column < 0 || column >= static_cast<int>(instrument.columns.size())) return series;
   const discrepancy::Samples& seen = measured_by(instrument, *own);
   const auto values = [&](const Eigen::MatrixXd& table) {

@@ -7,9 +7,9 @@ namespace pedicel::app {
 
 namespace {
 
+using discrepancy::Experiment;
 using discrepancy::Samples;
-using discrepancy::SceneExperiment;
-using discrepancy::SceneTrial;
+using discrepancy::Trial;
 using Kind = SceneInstrument::Kind;
 
 constexpr double unseen = std::numeric_limits<double>::quiet_NaN();
@@ -35,16 +35,14 @@ const auto& table_of(const SceneInstrument& instrument, const Tables& tables) {
   }
 }
 
-std::vector<std::string> with_axes(const std::vector<discrepancy::SceneMarker>& markers,
-                                   int count) {
+std::vector<std::string> with_axes(const std::vector<discrepancy::Marker>& markers, int count) {
   std::vector<std::string> columns;
-  for (const discrepancy::SceneMarker& marker : markers)
+  for (const discrepancy::Marker& marker : markers)
     for (int a = 0; a < count; ++a) columns.push_back(marker.name + "." + axes[a]);
   return columns;
 }
 
-std::vector<std::string> joints_named(const SceneExperiment& experiment,
-                                      const std::vector<int>& dofs) {
+std::vector<std::string> joints_named(const Experiment& experiment, const std::vector<int>& dofs) {
   const std::vector<std::string> all = discrepancy::joint_names(experiment.robot);
   std::vector<std::string> columns;
   for (const int dof : dofs) columns.push_back(all[static_cast<std::size_t>(dof)]);
@@ -59,10 +57,10 @@ void widen(Samples& table, Eigen::Index columns) {
 }
 
 /// The experiment with the points of its plants as further markers.
-SceneExperiment with_shapes(SceneExperiment experiment) {
+Experiment with_shapes(Experiment experiment) {
   const std::vector<ScenePlantShape> shapes = shapes_of(experiment);
   for (std::size_t p = 0; p < shapes.size(); ++p) {
-    discrepancy::SceneMarker marker;
+    discrepancy::Marker marker;
     marker.plant = static_cast<int>(p);
     for (const ShapeCurve& curve : shapes[p].curves)
       for (const double at : curve.at) {
@@ -77,7 +75,7 @@ SceneExperiment with_shapes(SceneExperiment experiment) {
     }
   }
   const auto all = static_cast<Eigen::Index>(experiment.markers.size());
-  for (SceneTrial& trial : experiment.trials) {
+  for (Trial& trial : experiment.trials) {
     const double end = trial.duration();
     if (trial.markers.size() == 0) {
       for (int i = 0; i <= std::lround(end * picture_rate); ++i)
@@ -90,7 +88,7 @@ SceneExperiment with_shapes(SceneExperiment experiment) {
   return experiment;
 }
 
-double rms_of(const SceneInstrument& instrument, const SceneTrial& trial,
+double rms_of(const SceneInstrument& instrument, const Trial& trial,
               const discrepancy::SceneReadings& readings) {
   const Samples& seen = measured_by(instrument, trial);
   const Eigen::MatrixXd& said = said_by(instrument, readings);
@@ -109,9 +107,9 @@ double rms_of(const SceneInstrument& instrument, const SceneTrial& trial,
 }
 
 /// Takes the points of the shapes out of what the widened experiment's instruments say.
-ScenePath split(discrepancy::SceneReadings readings, const SceneExperiment& experiment, int t,
+ScenePath split(discrepancy::SceneReadings readings, const Experiment& experiment, int t,
                 const std::vector<double>& time) {
-  const SceneTrial& trial = experiment.trials[static_cast<std::size_t>(t)];
+  const Trial& trial = experiment.trials[static_cast<std::size_t>(t)];
   const auto own = static_cast<Eigen::Index>(experiment.markers.size());
   ScenePath path;
   path.time = time;
@@ -134,9 +132,9 @@ ScenePath split(discrepancy::SceneReadings readings, const SceneExperiment& expe
 
 }  // namespace
 
-std::vector<SceneInstrument> instruments_of(const SceneExperiment& experiment, int t) {
+std::vector<SceneInstrument> instruments_of(const Experiment& experiment, int t) {
   std::vector<SceneInstrument> list;
-  const SceneTrial& trial = experiment.trials[static_cast<std::size_t>(t)];
+  const Trial& trial = experiment.trials[static_cast<std::size_t>(t)];
   if (trial.markers.size() > 0)
     list.push_back({Kind::markers, 0, "markers", "mm", with_axes(experiment.markers, 3), 0, 1.0e3});
   for (std::size_t c = 0; c < trial.pixels.size(); ++c)
@@ -159,7 +157,7 @@ std::vector<SceneInstrument> instruments_of(const SceneExperiment& experiment, i
   return list;
 }
 
-const Samples& measured_by(const SceneInstrument& instrument, const SceneTrial& trial) {
+const Samples& measured_by(const SceneInstrument& instrument, const Trial& trial) {
   return table_of(instrument, trial);
 }
 
@@ -168,10 +166,10 @@ const Eigen::MatrixXd& said_by(const SceneInstrument& instrument,
   return table_of(instrument, readings);
 }
 
-std::vector<ScenePlantShape> shapes_of(const SceneExperiment& experiment) {
+std::vector<ScenePlantShape> shapes_of(const Experiment& experiment) {
   std::vector<ScenePlantShape> shapes;
   int points = 0;
-  for (const discrepancy::ScenePlantFile& plant : experiment.plants) {
+  for (const discrepancy::ExperimentPlant& plant : experiment.plants) {
     ScenePlantShape shape;
     shape.curves = shape_of(plant.file);
     for (ShapeCurve& curve : shape.curves) {
@@ -187,11 +185,11 @@ std::vector<ScenePlantShape> shapes_of(const SceneExperiment& experiment) {
   return shapes;
 }
 
-void simulate_scene_paths(const SceneExperiment& experiment,
+void simulate_scene_paths(const Experiment& experiment,
                           const std::vector<discrepancy::SceneVariant>& variants,
                           const std::atomic<bool>& stop,
                           const std::function<void(int trial, int variant, ScenePath path)>& done) {
-  const SceneExperiment wide = with_shapes(experiment);
+  const Experiment wide = with_shapes(experiment);
   discrepancy::SceneSimulator simulator(wide, {}, 1, &stop);
   for (std::size_t t = 0; t < wide.trials.size(); ++t) {
     std::vector<discrepancy::SceneSimulator::Request> requests;
@@ -205,8 +203,8 @@ void simulate_scene_paths(const SceneExperiment& experiment,
   }
 }
 
-discrepancy::JointPath measured_arm(const SceneExperiment& experiment, int t) {
-  SceneTrial trial = experiment.trials[static_cast<std::size_t>(t)];
+discrepancy::JointPath measured_arm(const Experiment& experiment, int t) {
+  Trial trial = experiment.trials[static_cast<std::size_t>(t)];
   trial.follows_commands = false;
   if (trial.joints.size() == 0) {
     trial.joints = trial.commands;

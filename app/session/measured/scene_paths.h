@@ -25,11 +25,10 @@ struct SceneInstrument {
 
 /// Those that measured something in that trial. Encoders count where the arm followed commands:
 /// elsewhere they are believed.
-std::vector<SceneInstrument> instruments_of(const discrepancy::SceneExperiment& experiment,
-                                            int trial);
+std::vector<SceneInstrument> instruments_of(const discrepancy::Experiment& experiment, int trial);
 /// The table of an instrument, with its other columns.
 const discrepancy::Samples& measured_by(const SceneInstrument& instrument,
-                                        const discrepancy::SceneTrial& trial);
+                                        const discrepancy::Trial& trial);
 
 /// The curves and fruits of one of the scene's plants, for pictures.
 struct ScenePlantShape {
@@ -37,7 +36,7 @@ struct ScenePlantShape {
   std::vector<int> fruits;         ///< each one's place among the points
   std::vector<double> radii;       ///< m, of the fruits
 };
-std::vector<ScenePlantShape> shapes_of(const discrepancy::SceneExperiment& experiment);
+std::vector<ScenePlantShape> shapes_of(const discrepancy::Experiment& experiment);
 
 /// What a model says of one trial.
 struct ScenePath {
@@ -56,13 +55,13 @@ const Eigen::MatrixXd& said_by(const SceneInstrument& instrument,
 /// Simulates all trials with some models, the shapes of plants included, and calls `done` for each
 /// as soon as it is there. Returns early, with nothing more said, once `stop` is set. Throws as
 /// discrepancy::SceneSimulator does.
-void simulate_scene_paths(const discrepancy::SceneExperiment& experiment,
+void simulate_scene_paths(const discrepancy::Experiment& experiment,
                           const std::vector<discrepancy::SceneVariant>& variants,
                           const std::atomic<bool>& stop,
                           const std::function<void(int trial, int variant, ScenePath path)>& done);
 
 /// The arm's joints in a trial, as they were measured; of an arm that follows commands and whose
 /// encoders were not read, as it was told.
-discrepancy::JointPath measured_arm(const discrepancy::SceneExperiment& experiment, int trial);
+discrepancy::JointPath measured_arm(const discrepancy::Experiment& experiment, int trial);
 
 }  // namespace pedicel::app

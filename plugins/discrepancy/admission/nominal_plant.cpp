@@ -26,10 +26,10 @@ std::optional<NominalPlant> NominalPlant::of(const Experiment& experiment, const
 }
 
 NominalPlant::NominalPlant(const Experiment& experiment, const Vec3& gravity)
-    : file_(experiment.plant),
+    : file_(experiment.plant()),
       // On the file's own mesh, without short segments at junctions: what these change is far less
       // than what is asked here.
-      built_(PlantMaker(experiment, experiment.plant.distance, 0.0).nominal()),
+      built_(PlantMaker(experiment, experiment.plant().distance, 0.0).nominal()),
       drawn_(cosserat::drawn_state(built_.model)),
       settled_(drawn_),
       gravity_(gravity) {

@@ -3,21 +3,18 @@
 #include <Eigen/Dense>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/core/diagnostics.h"
 #include "engine/core/frames.h"
+#include "engine/robot/description.h"
+#include "engine/world/scene.h"
+#include "plugins/discrepancy/data/instruments.h"
 #include "plugins/plant/plant_file.h"
 
 namespace pedicel::discrepancy {
-
-/// A point of the plant whose position was measured.
-struct Marker {
-  std::string name;
-  plant::CurvePlace place;
-};
 
 /// A known motion: linear between its rows, the first and last row kept before and after.
 struct DrivenPath {
@@ -73,15 +70,27 @@ struct MeasuredEvent {
   bool is_detachment() const { return event == "detached"; }
 };
 
-/// One run of the experiment: what was done, and what was measured.
+/// One run of the experiment: what was done, and what was measured. Either a plant is held, loaded
+/// and moved, or a robot is at the plants. Every table has its own times, on one clock; NaN where
+/// nothing was measured.
 struct Trial {
   enum class Use { unset, fit, check };
+  struct Mass : plant::PlantMass {
+    int plant = 0;  ///< index into Experiment::plants
+    bool operator==(const Mass&) const = default;
+  };
+
   std::string name;
   std::filesystem::path folder;  ///< from the experiment's, as in the file
   Use use = Use::unset;
-  double clock = 0.0;                ///< s since the first trial
+  double clock = 0.0;                  ///< s since the first trial
+  std::vector<Mass> masses;            ///< known ones that hang on plants
+  std::vector<plant::Effect> effects;  ///< known in this trial
+  Samples markers;                     ///< m, W; 3 columns a marker, in the experiment's order
+  std::vector<MeasuredEvent> events;
+
+  // Of a plant without a robot.
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< m/s2
-  std::vector<plant::PlantMass> masses;
   std::vector<Hold> holds;
   std::vector<TimedLoad> loads;
   std::optional<DrivenPath> base;
@@ -91,51 +100,69 @@ struct Trial {
   /// Without time: row i of every table belongs together, with the plant in equilibrium. A sample's
   /// time is then the number of its row.
   bool is_static = false;
-  std::vector<plant::Effect> effects;  ///< at the sensor or the grip, known in this trial
-
-  Samples markers;  ///< m, W; 3 columns a marker, in the experiment's order
-  Samples force;    ///< N, W; 3 columns: the first hold's pull on the plant; empty: not measured
-  std::vector<MeasuredEvent> events;
+  Samples force;  ///< N, W; 3 columns: the first hold's pull on the plant; empty: not measured
   /// N and N m, W; 6 columns: force and moment of what carries the plant on it, at the root as it
   /// is then; empty: not measured.
   Samples wrench;
   std::filesystem::path wrench_file;  ///< from the trial's folder
 
+  // Of a robot at plants.
+  /// The controller gets the commands; else the encoders are believed.
+  bool follows_commands = false;
+  std::map<int, Pose> poses;       ///< X_WP of plants that stood elsewhere in this trial
+  std::vector<int> joint_columns;  ///< degree of freedom of each column of the three tables below
+  Samples joints;                  ///< rad or m, as the encoders read them
+  std::vector<int> command_columns;
+  Samples commands;  ///< rad or m
+  std::vector<int> torque_columns;
+  Samples torques;                ///< N m or N, of the motors
+  std::vector<Samples> pixels;    ///< px, one a camera; 2 columns a marker
+  std::vector<Samples> wrenches;  ///< N and N m, one a sensor; 6 columns
+
   double duration() const;  ///< s, of the last sample of anything
 };
 
-/// Known noise of the sensors; what is absent is estimated from the data.
-struct StatedNoise {
-  std::optional<double> position_std;  ///< m
-  std::optional<double> force_std;     ///< N
-  std::optional<double> moment_std{};  ///< N m
-  /// m, of the rows of paths themselves: what led the plant went elsewhere than they say.
-  std::optional<double> path_std{};
+/// A plant of the experiment, as its file and the scene say.
+struct ExperimentPlant {
+  std::string name;  ///< as in the scene
+  plant::PlantFile file;
+  std::filesystem::path path;  ///< of its file, for the leaf templates beside it
+  Pose pose;                   ///< X_WP
 };
 
-/// An experiment folder, whole: the page Experiment folder of the manual.
+/// An experiment folder, whole: the page Experiment folder of the manual. Its model is a scene with
+/// a robot, or a single plant.
 struct Experiment {
   std::filesystem::path folder;
   std::string title;
-  plant::PlantFile plant;            ///< the nominal plant
-  std::filesystem::path plant_path;  ///< of its file, for the leaf templates beside it
+  /// The nominal ones; one in place of a scene.
+  std::vector<ExperimentPlant> plants = std::vector<ExperimentPlant>(1);
   std::vector<Marker> markers;
   StatedNoise noise;
-  std::vector<plant::Effect> effects;  ///< at the sensor or the grip, known in every trial
+  std::vector<plant::Effect> effects;  ///< known in every trial
   std::vector<Trial> trials;
+
+  // Of a robot at plants.
+  std::filesystem::path scene_path;  ///< as the file says it, from the folder
+  world::Scene scene;
+  robot::RobotDescription robot;
+  std::vector<Camera> cameras;
+  std::vector<WrenchSensor> wrenches;
+  std::vector<plant::Effect> scene_effects;  ///< known in every trial: of the scene's file
+  /// A log of a run of the scene by this program, so that step, mesh and contact are the run's.
+  bool is_run = false;
+
+  bool has_robot() const { return scene.robot.has_value(); }
+  plant::PlantFile& plant() { return plants.front().file; }  ///< of an experiment of one plant
+  const plant::PlantFile& plant() const { return plants.front().file; }
+  int plant_index(const std::string& name) const;  ///< -1 where there is none
 };
 
 /// Whether it was recorded when fruits came off, in any trial: then those that no trial names
 /// stayed on.
 bool records_detachments(const Experiment& experiment);
 
-/// Reads an experiment folder (or its experiment.yaml). Every fault goes to `diagnostics` with
-/// file, line and column; nothing comes back where there is one.
-std::optional<Experiment> read_experiment(const std::filesystem::path& path,
-                                          Diagnostics& diagnostics);
-
-/// Writes it as a folder that read_experiment() reads back, the plant file and all tables included,
-/// each trial in a folder of its name. Throws io::WriteError.
-void write_experiment(const std::filesystem::path& folder, const Experiment& experiment);
+/// Columns of joints by their degrees of freedom: names in the order of the robot's model.
+std::vector<std::string> joint_names(const robot::RobotDescription& robot);
 
 }  // namespace pedicel::discrepancy

@@ -39,6 +39,15 @@ std::vector<int> measured_columns(const Samples& samples) {
   return columns;
 }
 
+/// Columns that a table may have, at least one; `expected` before `names` says what they are.
+io::TableSpec some_of(const std::vector<std::string>& columns, Quantity quantity,
+                      std::string expected, const std::vector<std::string>& names) {
+  io::TableSpec spec{.expected = std::move(expected), .needed = NeededColumns::any};
+  for (const std::string& column : columns) spec.columns.push_back({column, quantity});
+  for (const std::string& name : names) spec.expected += " " + name;
+  return spec;
+}
+
 }  // namespace
 
 Eigen::MatrixXd matrix_of_rows(const std::vector<double>& values, std::size_t columns) {
@@ -98,12 +107,53 @@ Samples read_markers(const std::filesystem::path& file, std::span<const Marker> 
                      rows, diagnostics);
 }
 
+Samples read_some_markers(const std::filesystem::path& file, std::span<const Marker> markers,
+                          Diagnostics& diagnostics) {
+  return read_samples(file,
+                      some_of(marker_columns(markers), Quantity::length,
+                              "time and x, y, z of markers:", marker_columns(markers, {""})),
+                      diagnostics);
+}
+
+Samples read_pixels(const std::filesystem::path& file, std::span<const Marker> markers,
+                    Diagnostics& diagnostics) {
+  return read_samples(file,
+                      some_of(pixel_columns(markers), Quantity::pixel,
+                              "time and u, v of markers:", marker_columns(markers, {""})),
+                      diagnostics);
+}
+
+Samples read_joint_table(const std::filesystem::path& file, const robot::RobotDescription& robot,
+                         Quantity quantity, std::vector<int>& columns, Diagnostics& diagnostics) {
+  const std::vector<std::string> names = joint_names(robot);
+  io::TableSpec spec = some_of(names, quantity, "time and joints:", names);
+  for (io::ColumnSpec& column : spec.columns) {
+    const auto joint = static_cast<std::size_t>(robot.joint(column.name));
+    if (robot.joints[joint].type != robot::JointType::prismatic) continue;
+    if (quantity == Quantity::angle) column.quantity = Quantity::length;
+    if (quantity == Quantity::moment) column.quantity = Quantity::force;
+  }
+  return read_samples(file, spec, diagnostics, &columns);
+}
+
 Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics, Rows rows) {
   return read_points(file,
                      {.columns = columns_of({"fx", "fy", "fz"}, Quantity::force),
                       .expected = "time,fx,fy,fz",
                       .needed = NeededColumns::any},
                      rows, diagnostics);
+}
+
+std::vector<std::string> marker_columns(std::span<const Marker> markers,
+                                        const std::vector<const char*>& axes) {
+  std::vector<std::string> names;
+  for (const Marker& marker : markers)
+    for (const char* axis : axes) names.push_back(marker.name + axis);
+  return names;
+}
+
+std::vector<std::string> pixel_columns(std::span<const Marker> markers) {
+  return marker_columns(markers, {".u", ".v"});
 }
 
 std::vector<std::string> wrench_columns() {

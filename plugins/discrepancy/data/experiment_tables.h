@@ -35,6 +35,21 @@ DrivenPath read_path(const std::filesystem::path& file, Diagnostics& diagnostics
 Samples read_markers(const std::filesystem::path& file, std::span<const Marker> markers,
                      Diagnostics& diagnostics, Rows rows = Rows::time);
 
+/// time,<marker>.x,<marker>.y,<marker>.z,...: some axes of some markers or all; what is absent was
+/// not measured.
+Samples read_some_markers(const std::filesystem::path& file, std::span<const Marker> markers,
+                          Diagnostics& diagnostics);
+
+/// time,<marker>.u,<marker>.v,...: the same of image points.
+Samples read_pixels(const std::filesystem::path& file, std::span<const Marker> markers,
+                    Diagnostics& diagnostics);
+
+/// time,<joint>,...: some joints of the robot or all, in any order; `columns` receives the degree
+/// of freedom of each.
+Samples read_joint_table(const std::filesystem::path& file, const robot::RobotDescription& robot,
+                         io::Quantity quantity, std::vector<int>& columns,
+                         Diagnostics& diagnostics);
+
 /// time,fx,fy,fz, or one or two of the axes; empty cells where it was not measured.
 Samples read_force(const std::filesystem::path& file, Diagnostics& diagnostics,
                    Rows rows = Rows::time);
@@ -54,15 +69,11 @@ std::vector<MeasuredEvent> read_events(
     const std::filesystem::path& file, Diagnostics& diagnostics,
     const std::function<void(const MeasuredEvent&, io::SpecTable&)>& check = {});
 
-/// "m1.x", "m1.y", "m1.z", ... of what has names.
-template <class Markers>
-std::vector<std::string> marker_columns(const Markers& markers,
-                                        const std::vector<const char*>& axes = {".x", ".y", ".z"}) {
-  std::vector<std::string> names;
-  for (const auto& marker : markers)
-    for (const char* axis : axes) names.push_back(marker.name + axis);
-  return names;
-}
+/// "m1.x", "m1.y", "m1.z", ...
+std::vector<std::string> marker_columns(std::span<const Marker> markers,
+                                        const std::vector<const char*>& axes = {".x", ".y", ".z"});
+/// "m1.u", "m1.v", ...
+std::vector<std::string> pixel_columns(std::span<const Marker> markers);
 
 /// `rows` says whether there is a time.
 std::string table_text(const std::vector<std::string>& names, const Samples& samples,

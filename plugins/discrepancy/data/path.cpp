@@ -35,12 +35,4 @@ Quat DrivenPath::rotation_at(double t) const {
   return rotation[row].slerp(share, rotation[row + 1]);
 }
 
-double Trial::duration() const {
-  double last = 0.0;
-  if (markers.size() > 0) last = std::max(last, markers.time.back());
-  if (force.size() > 0) last = std::max(last, force.time.back());
-  if (wrench.size() > 0) last = std::max(last, wrench.time.back());
-  return last;
-}
-
 }  // namespace pedicel::discrepancy

@@ -45,7 +45,7 @@ double drawn_length(const plant::PlantCurve& curve) {
 }
 
 std::vector<MarkerChain> chains_of(const Experiment& experiment) {
-  const plant::PlantFile& plant = experiment.plant;
+  const plant::PlantFile& plant = experiment.plant();
   std::vector<geometry::Curve> curves;
   for (const plant::PlantCurve& curve : plant.curves) curves.push_back(curve_of(curve));
   double nearest_root = std::numeric_limits<double>::infinity();

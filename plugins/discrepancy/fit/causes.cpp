@@ -10,7 +10,7 @@
 namespace pedicel::discrepancy {
 
 effects::StartContext start_context(const Experiment& experiment, const Scales& scales) {
-  effects::StartContext context{experiment.plant, scales, 0.0, {}, {}, false};
+  effects::StartContext context{experiment.plant(), scales, 0.0, {}, {}, false};
   // By the experiment's own clock: what drifts from trial to trial can be told only where that says
   // when each of them was.
   double first = 1e300, last = -1e300;
@@ -56,14 +56,14 @@ Hypothesis mesh_nuisance() {
 
 Hypothesis junction_nuisance(const Experiment& experiment, const Evidence& evidence) {
   Diagnostics diagnostics;
-  const auto built = plant::build_plant(experiment.plant, {}, diagnostics);
+  const auto built = plant::build_plant(experiment.plant(), {}, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
   const auto& known = effects::effect_definitions();
   const auto spring = std::ranges::find_if(
       known, [](const effects::EffectDefinition& one) { return one.at_junction != nullptr; });
   Hypothesis all;
   if (spring == known.end()) return all;
-  std::vector<char> seen(experiment.plant.curves.size(), 0);
+  std::vector<char> seen(experiment.plant().curves.size(), 0);
   for (const plant::BuiltPlant::Span& span : built->spans) {
     const cosserat::Element& element = built->model.elements[span.element];
     // The first segment of a curve is the one at its junction; the root's has none.
@@ -75,7 +75,7 @@ Hypothesis junction_nuisance(const Experiment& experiment, const Evidence& evide
         (section.bend1 + section.bend2) / (evidence.most_discretisation * element.length);
     // The start is far stiffer than the softest, and its prior wide: junctions that no data see
     // stay out of the way.
-    all.add(spring->at_junction(experiment.plant.curves[span.curve].name, softest));
+    all.add(spring->at_junction(experiment.plant().curves[span.curve].name, softest));
   }
   // As above: a nuisance is no finding.
   all.name.clear();

@@ -28,7 +28,7 @@ CoarseModel::CoarseModel(FitSetup& setup, const FitSummary& anchor) : setup_(set
   // On a coarser mesh a weak stretch is shorter than a segment, and its place cannot be found. A
   // fine mesh that is coarser than this itself stays as it is.
   const double coarsest =
-      std::max(fine.distance, accuracy.coarsest_mesh * setup.experiment().plant.distance);
+      std::max(fine.distance, accuracy.coarsest_mesh * setup.experiment().plant().distance);
   // The cheapest first. The last one is the fine simulator itself, which has no error against
   // itself, so that there is always one that does.
   constexpr std::array<std::array<double, 2>, 3> by_mesh_and_step{{{2, 2}, {1, 2}, {1, 1}}};

@@ -17,7 +17,7 @@ FitSetup::FitSetup(const Experiment& experiment, int threads, const NoiseRule& r
       rule_(rule),
       // Coarser than the file and than usual: most data do not tell the difference, and every fit
       // then takes a part of the time. refine() decides whether it does.
-      numerics_{.distance = 2.0 * experiment.plant.distance,
+      numerics_{.distance = 2.0 * experiment.plant().distance,
                 .dt = 2.0 * accuracy().usual_dt,
                 .quiet = accuracy().quiet_steps},
       threads_(threads),
@@ -114,7 +114,7 @@ void FitSetup::correct_at(const FitSummary& model) {
 bool FitSetup::is_coarse(const Numerics& numerics) const {
   // Either is enough: half of a coarse pair is not what the limits of usual ones were measured
   // with.
-  return numerics.dt > accuracy().usual_dt || numerics.distance > experiment_->plant.distance;
+  return numerics.dt > accuracy().usual_dt || numerics.distance > experiment_->plant().distance;
 }
 
 bool FitSetup::is_fine_enough(const NumericsCheck& check) const {
@@ -130,7 +130,7 @@ Numerics FitSetup::finer(const NumericsCheck& check) const {
   // was, for all its time: by that a beam of silicone that was measured came out as unknown.
   const Numerics next = refined(check);
   Numerics usual = check.numerics;
-  usual.distance = experiment_->plant.distance;
+  usual.distance = experiment_->plant().distance;
   usual.dt = accuracy().usual_dt;
   const bool beyond = next.dt < usual.dt || next.distance < usual.distance;
   return is_coarse(check.numerics) && beyond ? usual : next;

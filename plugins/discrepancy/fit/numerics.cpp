@@ -59,7 +59,7 @@ class Comparison {
     // One at a time. With both halved at once the sum would come out as well, for more time, but
     // not which of the two to refine.
     half_step.dt *= 0.5;
-    file_mesh.distance = experiment.plant.distance;
+    file_mesh.distance = experiment.plant().distance;
     // Near junctions a mesh coarser than the file's is not yet of second order: its difference from
     // the file's counts whole, and halving begins there.
     const bool coarse = numerics.distance > file_mesh.distance;

@@ -291,7 +291,7 @@ class Run {
     alone.effects = result_.summary.hypothesis.effects;
     alone.free = {free};
     const plant::Effect& effect = alone.effects[free.effect];
-    const Nominal unit = nominal(experiment().plant.material, effect.name, free);
+    const Nominal unit = nominal(experiment().plant().material, effect.name, free);
     FittedParameter made;
     made.name = name_of(effect, free);
     made.unit = unit.unit;
@@ -305,7 +305,7 @@ class Run {
   void report(int p, const Profile& found) {
     const FreeParameter& free = result_.summary.hypothesis.free[p];
     const plant::Effect& effect = result_.summary.hypothesis.effects[free.effect];
-    const double unit = nominal(experiment().plant.material, effect.name, free).value;
+    const double unit = nominal(experiment().plant().material, effect.name, free).value;
     FittedParameter made = described(free);
     made.low = unit * free.to_value(found.low.unknown);
     made.high = unit * free.to_value(found.high.unknown);

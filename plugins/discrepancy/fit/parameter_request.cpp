@@ -45,7 +45,7 @@ plant::CurvePlace parse_place(const std::string& word, const std::string& text,
   if (!at || *at < 0.0 || *at > 1.0)
     refuse(word, "the place is \"" + text + "\", expected CURVE:AT with AT from 0 to 1");
   const plant::CurvePlace place{text.substr(0, colon), *at, {}};
-  const auto& curves = experiment.plant.curves;
+  const auto& curves = experiment.plant().curves;
   if (std::ranges::none_of(curves, [&](const auto& c) { return c.name == place.curve; }))
     // Here and not by the simulator, which would refuse it later and without the word.
     refuse(word, "the plant has no curve \"" + place.curve + "\"");

@@ -238,7 +238,7 @@ FitSummary ForceRefits::moved_along(FitSummary found, const FitOptions& few) {
   const std::vector<MarkerChain> chains = chains_of(experiment);
   const auto chain = std::ranges::find_if(chains, [&](const MarkerChain& one) {
     const auto curve = static_cast<std::size_t>(one.curve);
-    return experiment.plant.curves[curve].name == stop.place->curve;
+    return experiment.plant().curves[curve].name == stop.place->curve;
   });
   // By what the fit foretells of the markers, which is near the data by now.
   const auto motion = evaluator_.predictions(std::vector{found.hypothesis}, options_.fit);

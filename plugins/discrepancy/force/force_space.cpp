@@ -79,7 +79,7 @@ ForceResponses::ForceResponses(const Experiment& experiment, const DataSet& data
 std::vector<Vec3> ForceResponses::axes_at(int marker) const {
   const plant::CurvePlace& place = experiment_.markers[marker].place;
   Vec3 tangent = Vec3::UnitZ();
-  for (const plant::PlantCurve& curve : experiment_.plant.curves)
+  for (const plant::PlantCurve& curve : experiment_.plant().curves)
     if (curve.name == place.curve)
       // As drawn. What bends a little afterwards stays nearly across.
       tangent = drawn_point(curve, std::min(1.0, place.at + 0.02)) -

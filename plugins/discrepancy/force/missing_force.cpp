@@ -33,7 +33,7 @@ class Inference {
     // Of the fitted trials: these judge laws, while trials held out have a word of their own at the
     // end.
     scales_.samples = evaluator.data().samples(options.fit.trials);
-    for (const plant::PlantCurve& curve : experiment_.plant.curves)
+    for (const plant::PlantCurve& curve : experiment_.plant().curves)
       scales_.length = std::max(scales_.length, drawn_length(curve));
     for (const Trial& trial : experiment_.trials) {
       scales_.duration = std::max(scales_.duration, trial.duration());
@@ -275,7 +275,7 @@ class Inference {
   // The deviation of a place that is only known to a node, of its curve's length: precise data
   // would know it better, were the law and the mesh exact.
   double node_share() const {
-    for (const plant::PlantCurve& curve : experiment_.plant.curves)
+    for (const plant::PlantCurve& curve : experiment_.plant().curves)
       if (curve.name == result_.place->curve)
         return evaluator_.simulator().numerics().distance / std::sqrt(12.0) / drawn_length(curve);
     return 0.0;

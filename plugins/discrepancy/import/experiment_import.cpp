@@ -56,8 +56,8 @@ class Importer {
   Experiment make() {
     Experiment experiment;
     experiment.title = request_.title;
-    experiment.plant = request_.plant;
-    experiment.plant_path = request_.plant_path;
+    experiment.plant() = request_.plant;
+    experiment.plants.front().path = request_.plant_path;
     for (const PlacedPoint& one : request_.places) {
       check_curve(one.place, "--place");
       experiment.markers.push_back({one.name, one.place});

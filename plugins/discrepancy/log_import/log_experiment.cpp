@@ -4,7 +4,8 @@
 
 #include "engine/io/atomic_file.h"
 #include "engine/io/csv.h"
-#include "plugins/discrepancy/scene_files/scene_tables.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 
 namespace pedicel::discrepancy {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "plugins/discrepancy/data/experiment.h"
 #include "plugins/discrepancy/log_import/log_contents.h"
 #include "plugins/discrepancy/log_import/log_map.h"
 #include "plugins/discrepancy/log_import/log_scene.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
 
 namespace pedicel::discrepancy {
 

@@ -53,7 +53,7 @@ double deviations(const Findings& findings, const FitSummary& model, const FitSu
 
 // What the plant file says, of the whole plant or of any of its curves.
 double known_to(const Findings& findings, const std::string& name) {
-  const plant::PlantFile& plant = findings.data->experiment().plant;
+  const plant::PlantFile& plant = findings.data->experiment().plant();
   const effects::EffectDefinition* known = effects::find_effect(name);
   double widest = 0.0;
   const auto look = [&](const plant::MaterialValues& material) {
@@ -535,7 +535,7 @@ void conclude_detachment(Diagnosis& diagnosis) {
 
 void report_parameters(const Findings& findings, Diagnosis& diagnosis) {
   const FitSummary& fit = diagnosis.best;
-  const plant::MaterialValues& material = diagnosis.admission.experiment.plant.material;
+  const plant::MaterialValues& material = diagnosis.admission.experiment.plant().material;
   for (int p = 0; p < fit.hypothesis.size(); ++p) {
     const FreeParameter& free = fit.hypothesis.free[p];
     const std::string& effect = fit.hypothesis.effects[free.effect].name;

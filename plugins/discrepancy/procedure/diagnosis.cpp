@@ -120,7 +120,7 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& asked) 
 }
 
 plant::PlantFile extended_plant(const Experiment& experiment, const Hypothesis& hypothesis) {
-  plant::PlantFile plant = experiment.plant;
+  plant::PlantFile plant = experiment.plant();
   for (const plant::Effect& effect : hypothesis.effects) {
     const effects::EffectDefinition* known = effects::find_effect(effect.name);
     // What is wrong with an instrument or a grip does not go into the plant.

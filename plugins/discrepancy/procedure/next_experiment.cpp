@@ -32,7 +32,7 @@ std::vector<Variant> variants_of(const std::vector<Hypothesis>& models) {
 Experiment empty_copy(const Experiment& experiment) {
   // Not its trials, nor what went wrong in them.
   Experiment copy;
-  copy.plant = experiment.plant;
+  copy.plant = experiment.plant();
   copy.markers = experiment.markers;
   copy.noise = experiment.noise;
   copy.effects = experiment.effects;
@@ -194,7 +194,7 @@ std::string free_name(const Experiment& experiment) {
 Experiment planned(const Experiment& experiment, const TrialDesign& design) {
   Experiment plan = empty_copy(experiment);
   plan.title = "next: " + design.action;
-  plan.plant_path = experiment.plant_path;
+  plan.plants.front().path = experiment.plants.front().path;
   plan.trials = {design.trial};
   Trial& trial = plan.trials.front();
   // So that the folder can be put beside the others as it is.
@@ -253,13 +253,13 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
   options.numerics.quiet = 1;  // nobody has seen yet when a design rests
   // As coarse as the plant file draws it. The fits may have had to be finer than that, for data
   // more precise than this choice.
-  options.numerics.distance = std::max(options.numerics.distance, experiment.plant.distance);
+  options.numerics.distance = std::max(options.numerics.distance, experiment.plant().distance);
   const std::vector<Variant> variants = variants_of(models);
   DesignScales scales = design_scales(experiment);
   // A plant that is turned is another experiment: gravity bends it along another side of itself. It
   // tells its own shape from what acts from outside.
   Experiment upright = empty_copy(experiment), turned = upright;
-  turned.plant = turned_plant(experiment.plant);
+  turned.plant = turned_plant(experiment.plant());
   const Vec3 gravity =
       experiment.trials.empty() ? Vec3(0, 0, -9.81) : experiment.trials.front().gravity;
   if (!find_rest(upright, variants[0], scales, options.numerics, gravity, simulations,

@@ -19,7 +19,7 @@ namespace {
 
 void check_places(const Hypothesis& effects, const Experiment& experiment) {
   for (const plant::Effect& effect : effects.effects)
-    if (effect.place && experiment.plant.curve_index(effect.place->curve) < 0)
+    if (effect.place && experiment.plant().curve_index(effect.place->curve) < 0)
       throw UsageError(effect.name + " sits on curve \"" + effect.place->curve +
                        "\", which the other plant does not have, expected plants whose curves "
                        "have the same names");

@@ -119,7 +119,8 @@ class Designs {
     for (double t = 0.0; t <= duration; t += 0.01) {
       const double phase = 2.0 * std::numbers::pi * (0.3 * t + 0.5 * 4.7 * t * t / duration);
       path.time.push_back(t);
-      path.position.push_back(experiment_.plant.root + amplitude * std::sin(phase) * Vec3::UnitX());
+      path.position.push_back(experiment_.plant().root +
+                              amplitude * std::sin(phase) * Vec3::UnitX());
     }
     design.trial.base = path;
   }
@@ -179,7 +180,7 @@ DesignScales design_scales(const Experiment& experiment) {
   const std::vector<MarkerChain> chains = chains_of(experiment);
   const MarkerChain& main = longest(chains);
   DesignScales scales;
-  scales.grip = {experiment.plant.curves[main.curve].name, 0.8, {}};
+  scales.grip = {experiment.plant().curves[main.curve].name, 0.8, {}};
   for (const Trial& trial : experiment.trials) {
     scales.force = scales.force || trial.force.size() > 0;
     scales.last_clock = std::max(scales.last_clock, trial.clock + trial.duration());
@@ -201,9 +202,9 @@ DesignScales design_scales(const Experiment& experiment) {
   scales.sample_time = std::clamp(scales.sample_time, 0.005, 0.05);
   if (scales.load > 0.0) return scales;
   // A cantilever's tip moves by F l^3 / (3 E I).
-  const plant::PlantCurve& curve = experiment.plant.curves[main.curve];
+  const plant::PlantCurve& curve = experiment.plant().curves[main.curve];
   const double modulus = curve.material.youngs_modulus.value_or(
-      experiment.plant.material.youngs_modulus.value_or(1e8));
+      experiment.plant().material.youngs_modulus.value_or(1e8));
   const double radius = curve.radius.empty() ? 1e-3 : curve.radius.front();
   const double bend = modulus * std::numbers::pi / 4.0 * std::pow(radius, 4);
   scales.load = 3.0 * bend * scales.reach / std::pow(main.length, 3);

@@ -186,7 +186,7 @@ void VerdictWriter::judge_stalks() {
   // The moment under a fruit depends on how far below it the next joint is: here as where the
   // law will be used, with the plant file's own nodes.
   Numerics own = state_.result.numerics;
-  own.distance = state_.experiment().plant.distance;
+  own.distance = state_.experiment().plant().distance;
   own.junction = 0.0;
   Simulator simulator(state_.experiment(), own, 1, state_.options.stop);
   std::vector<StalkLoads> stalks;
@@ -196,8 +196,8 @@ void VerdictWriter::judge_stalks() {
     const std::vector<double>& time = state_.experiment().trials[t].markers.time;
     for (std::size_t i = 1; i < time.size(); ++i) intervals.push_back(time[i] - time[i - 1]);
     std::ranges::move(simulator.stalk_loads(variant, t), std::back_inserter(stalks));
-    for (const plant::PlantFruit& fruit : state_.experiment().plant.fruits)
-      thresholds.push_back(break_law_of(state_.experiment().plant, fruit));
+    for (const plant::PlantFruit& fruit : state_.experiment().plant().fruits)
+      thresholds.push_back(break_law_of(state_.experiment().plant(), fruit));
   }
   state_.result.verdict.simulations += simulator.simulations();
   if (intervals.empty()) return;

@@ -31,7 +31,7 @@ class Sketch {
  public:
   Sketch(const Experiment& experiment, const std::vector<SketchMark>& marks)
       : experiment_(experiment), marks_(marks) {
-    for (const plant::PlantCurve& curve : experiment.plant.curves) {
+    for (const plant::PlantCurve& curve : experiment.plant().curves) {
       lines_.emplace_back();
       for (int i = 0; i <= pieces; ++i)
         lines_.back().push_back(drawn_point(curve, static_cast<double>(i) / pieces));
@@ -46,7 +46,7 @@ class Sketch {
     ground(canvas);
     for (const SketchMark& mark : marks_) broad_parts(canvas, mark);
     for (std::size_t c = 0; c < lines_.size(); ++c) {
-      const plant::PlantCurve& curve = experiment_.plant.curves[c];
+      const plant::PlantCurve& curve = experiment_.plant().curves[c];
       const double radius = curve.radius.empty() ? 0.0 : curve.radius.front();
       polyline(canvas, lines_[c], "#57606a", std::clamp(2.0 * radius * scale_, 2.0, 9.0), 1.0);
     }
@@ -69,7 +69,7 @@ class Sketch {
         for (const Vec3& p : line) {
           low = std::min(low, p.dot(u));
           high = std::max(high, p.dot(u));
-          height = std::max(height, std::abs(p.z() - experiment_.plant.root.z()));
+          height = std::max(height, std::abs(p.z() - experiment_.plant().root.z()));
         }
       double score = (high - low) / std::max(height, high - low);
       for (const SketchMark& mark : marks_)
@@ -99,9 +99,9 @@ class Sketch {
   double y(const Vec3& p) const { return height_ - foot - bottom_ - scale_ * (p.z() - base_); }
 
   std::optional<Vec3> point(const plant::CurvePlace& place) const {
-    const int c = experiment_.plant.curve_index(place.curve);
+    const int c = experiment_.plant().curve_index(place.curve);
     if (c < 0) return std::nullopt;
-    return drawn_point(experiment_.plant.curves[c], place.at);
+    return drawn_point(experiment_.plant().curves[c], place.at);
   }
 
   void polyline(SvgCanvas& canvas, const std::vector<Vec3>& line, const std::string& colour,
@@ -117,7 +117,7 @@ class Sketch {
 
   // Where the plant is clamped.
   void ground(SvgCanvas& canvas) {
-    const double px = x(experiment_.plant.root), py = y(experiment_.plant.root);
+    const double px = x(experiment_.plant().root), py = y(experiment_.plant().root);
     canvas.line(px - 26, py, px + 26, py, "stroke=\"#1f2328\" stroke-width=\"2\"");
     for (int i = -2; i <= 2; ++i)
       canvas.line(px + 10 * i, py, px + 10 * i - 6, py + 7, "stroke=\"#1f2328\"");
@@ -129,12 +129,12 @@ class Sketch {
       for (const auto& line : lines_) polyline(canvas, line, mark.colour, 12.0, 0.3);
     if (!mark.stretch) return;
     const auto& [from, to] = *mark.stretch;
-    const int c = experiment_.plant.curve_index(from.curve);
+    const int c = experiment_.plant().curve_index(from.curve);
     if (c < 0) return;
     std::vector<Vec3> part;
     for (int i = 0; i <= pieces; ++i)
       part.push_back(
-          drawn_point(experiment_.plant.curves[c], from.at + (to - from.at) * i / pieces));
+          drawn_point(experiment_.plant().curves[c], from.at + (to - from.at) * i / pieces));
     polyline(canvas, part, mark.colour, 13.0, 0.5);
   }
 
@@ -248,11 +248,11 @@ class Sketch {
 plant::CurvePlace root_place(const Experiment& experiment) {
   for (const MarkerChain& chain : chains_of(experiment)) {
     if (!chain.rooted) continue;
-    const plant::PlantCurve& curve = experiment.plant.curves[chain.curve];
+    const plant::PlantCurve& curve = experiment.plant().curves[chain.curve];
     const bool first = (curve.points.front() - chain.foot).norm() < 1e-12;
     return {curve.name, first ? 0.0 : 1.0, {}};
   }
-  return {experiment.plant.curves.front().name, 0.0, {}};
+  return {experiment.plant().curves.front().name, 0.0, {}};
 }
 
 double first_value(const NamedCause& cause, const std::string& parameter) {
@@ -283,10 +283,10 @@ SketchMark mark_of(const Experiment& experiment, const NamedCause& cause,
     mark.label += " (all markers)";
   } else if (cause.where) {
     mark.places = {*cause.where};
-    const int c = experiment.plant.curve_index(cause.where->curve);
+    const int c = experiment.plant().curve_index(cause.where->curve);
     const double length = first_value(cause, "length");
     if (c >= 0 && length > 0.0) {
-      const double half = 0.5 * length / drawn_length(experiment.plant.curves[c]);
+      const double half = 0.5 * length / drawn_length(experiment.plant().curves[c]);
       plant::CurvePlace from = *cause.where;
       from.at = std::max(0.0, cause.where->at - half);
       mark.stretch = {from, std::min(1.0, cause.where->at + half)};

@@ -5,6 +5,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/csv.h"
 #include "plugins/discrepancy/data/experiment_tables.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/report/report_card.h"
 #include "plugins/discrepancy/report/report_plots.h"
 #include "plugins/discrepancy/report/report_words.h"

@@ -8,7 +8,7 @@
 
 namespace pedicel::discrepancy {
 
-void write_scene_diagnosis(const std::filesystem::path& folder, const SceneExperiment& experiment,
+void write_scene_diagnosis(const std::filesystem::path& folder, const Experiment& experiment,
                            SceneDiagnosis& diagnosis) {
   Verdict& verdict = diagnosis.verdict;
   const bool is_found = verdict.outcome == Outcome::adequate || verdict.outcome == Outcome::named ||

@@ -4,8 +4,8 @@
 
 #include "engine/io/atomic_file.h"
 #include "engine/plots/svg_plot.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
-#include "plugins/discrepancy/scene_files/scene_tables.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/test/symptom_parts.h"
 
 namespace pedicel::discrepancy {
@@ -43,7 +43,7 @@ std::string folder_name(std::string name) {
 }
 
 /// The trial with what a model predicts in its tables; what drives the arm is left out.
-SceneTrial predicted_trial(SceneTrial trial, const SceneReadings& readings) {
+Trial predicted_trial(Trial trial, const SceneReadings& readings) {
   const auto take = [](Samples& samples, const Eigen::MatrixXd& values) {
     if (samples.size() > 0) samples.value = values;
   };
@@ -83,13 +83,13 @@ void add_next_motion(io::HtmlReport& page, const SceneNext& next) {
 
 std::string write_scene_next(const std::filesystem::path& folder, const SceneNext& next) {
   if (!next.experiment) return {};
-  const SceneExperiment& plan = *next.experiment;
-  const SceneTrial& trial = plan.trials.front();
+  const Experiment& plan = *next.experiment;
+  const Trial& trial = plan.trials.front();
   const std::filesystem::path into = folder / "next";
-  write_scene_experiment(into, plan);
+  write_experiment(into, plan);
   for (std::size_t m = 0; m < next.predictions.size(); ++m)
-    write_scene_tables(into / trial.name / folder_name(next.names[m]), plan,
-                       predicted_trial(trial, next.predictions[m]));
+    write_tables(into / trial.name / folder_name(next.names[m]), plan,
+                 predicted_trial(trial, next.predictions[m]));
   io::write_file_atomically(into / trial.name / "predictions.svg", channel_plot(next));
   return "next/experiment.yaml";
 }

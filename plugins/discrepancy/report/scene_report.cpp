@@ -76,9 +76,9 @@ std::string plot_of(const ShownColumn& shown, bool extended) {
   return plots::to_svg(plot);
 }
 
-void add_trial(io::HtmlReport& page, const SceneExperiment& experiment, const SceneDiagnosis& d,
+void add_trial(io::HtmlReport& page, const Experiment& experiment, const SceneDiagnosis& d,
                std::size_t t) {
-  const SceneTrial& trial = experiment.trials[t];
+  const Trial& trial = experiment.trials[t];
   const SceneReadings &a = d.nominal[t], &b = d.refitted[t], &c = d.extended[t];
   const bool extended = d.findings.explained();
   constexpr const char* axes[] = {"x", "y", "z"};
@@ -108,7 +108,7 @@ void add_trial(io::HtmlReport& page, const SceneExperiment& experiment, const Sc
   }
 }
 
-std::string trial_names(const SceneExperiment& experiment, const std::vector<int>& trials) {
+std::string trial_names(const Experiment& experiment, const std::vector<int>& trials) {
   std::string text;
   for (const int t : trials)
     text += (text.empty() ? "" : ", ") + experiment.trials[static_cast<std::size_t>(t)].name;
@@ -165,7 +165,7 @@ std::string scene_next_text(const Verdict& v) {
   return "Repeat the trial with the largest residual, with one more marker where it is largest.";
 }
 
-std::string scene_report_text(const SceneExperiment& experiment, const SceneDiagnosis& d) {
+std::string scene_report_text(const Experiment& experiment, const SceneDiagnosis& d) {
   const Verdict& v = d.verdict;
   io::HtmlReport page(
       experiment.title.empty() ? "Diagnosis" : experiment.title,
@@ -231,7 +231,7 @@ std::string scene_card_text(const SceneDiagnosis& d) {
   return text;
 }
 
-void write_scene_report(const std::filesystem::path& folder, const SceneExperiment& experiment,
+void write_scene_report(const std::filesystem::path& folder, const Experiment& experiment,
                         const SceneDiagnosis& diagnosis) {
   io::write_file_atomically(folder / "report.html", scene_report_text(experiment, diagnosis));
 }

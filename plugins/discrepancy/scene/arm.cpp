@@ -6,7 +6,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-robot::RobotDescription changed(const SceneExperiment& experiment, const SceneState& state) {
+robot::RobotDescription changed(const Experiment& experiment, const SceneState& state) {
   if (!experiment.scene.robot) return experiment.robot;
   return with_tool(experiment.robot, tool_link(*experiment.scene.robot, experiment.robot), state);
 }
@@ -18,7 +18,7 @@ int tool_link(const world::SceneRobot& scene, const robot::RobotDescription& rob
   return named >= 0 ? named : static_cast<int>(robot.links.size()) - 1;
 }
 
-Arm::Arm(const SceneExperiment& experiment, const SceneState& state)
+Arm::Arm(const Experiment& experiment, const SceneState& state)
     : description_(changed(experiment, state)),
       model_(description_, experiment.scene.robot ? experiment.scene.robot->base : Pose{}) {
   tool_ = experiment.scene.robot ? tool_link(*experiment.scene.robot, description_) : 0;

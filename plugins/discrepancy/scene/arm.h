@@ -13,7 +13,7 @@ namespace pedicel::discrepancy {
 /// they weigh. Joints that no table has stand where the scene starts them.
 class Arm {
  public:
-  Arm(const SceneExperiment& experiment, const SceneState& state);
+  Arm(const Experiment& experiment, const SceneState& state);
 
   const robot::KinematicModel& model() const { return model_; }
   /// With the payload in its tool.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 

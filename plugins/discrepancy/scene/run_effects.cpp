@@ -9,12 +9,12 @@ namespace pedicel::discrepancy {
 namespace {
 
 /// The scene as an experiment without trials, as far as effects name things of it.
-SceneExperiment without_trials(const world::Scene& scene, const robot::RobotDescription* robot) {
-  SceneExperiment experiment;
+Experiment without_trials(const world::Scene& scene, const robot::RobotDescription* robot) {
+  Experiment experiment;
   experiment.scene = scene;
   if (robot) experiment.robot = *robot;
   for (const world::ScenePlant& plant : scene.plants) {
-    ScenePlantFile named;
+    ExperimentPlant named;
     named.name = plant.name;
     experiment.plants.push_back(std::move(named));
   }
@@ -28,7 +28,7 @@ SceneExperiment without_trials(const world::Scene& scene, const robot::RobotDesc
   return experiment;
 }
 
-SceneState plain_state(const SceneExperiment& experiment) {
+SceneState plain_state(const Experiment& experiment) {
   SceneState state;
   state.plants.resize(experiment.plants.size());
   const long dofs =
@@ -39,7 +39,7 @@ SceneState plain_state(const SceneExperiment& experiment) {
   return state;
 }
 
-std::vector<plant::Effect> read_all(const SceneExperiment& experiment, Diagnostics& diagnostics) {
+std::vector<plant::Effect> read_all(const Experiment& experiment, Diagnostics& diagnostics) {
   std::vector<plant::Effect> effects;
   for (const io::YamlPiece& piece : experiment.scene.effects)
     effects.push_back(read_scene_effect(io::read_piece(piece, diagnostics), experiment));
@@ -62,7 +62,7 @@ std::vector<plant::Effect> RunEffects::of_plant(const std::string& name) const {
 RunEffects read_run_effects(const world::Scene& scene, const robot::RobotDescription* robot,
                             const coupling::CouplingSettings& coupling, Diagnostics& diagnostics) {
   RunEffects out;
-  const SceneExperiment experiment = without_trials(scene, robot);
+  const Experiment experiment = without_trials(scene, robot);
   out.state = plain_state(experiment);
   out.state.coupling = coupling;
   const int before = diagnostics.error_count();
@@ -93,7 +93,7 @@ RunEffects read_run_effects(const world::Scene& scene, const robot::RobotDescrip
   return out;
 }
 
-std::vector<plant::Effect> scene_file_effects(const SceneExperiment& experiment,
+std::vector<plant::Effect> scene_file_effects(const Experiment& experiment,
                                               Diagnostics& diagnostics) {
   return read_all(experiment, diagnostics);
 }

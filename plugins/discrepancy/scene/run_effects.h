@@ -25,7 +25,7 @@ RunEffects read_run_effects(const world::Scene& scene, const robot::RobotDescrip
                             const coupling::CouplingSettings& coupling, Diagnostics& diagnostics);
 
 /// The same effects as those of an experiment, which knows more that they may name.
-std::vector<plant::Effect> scene_file_effects(const SceneExperiment& experiment,
+std::vector<plant::Effect> scene_file_effects(const Experiment& experiment,
                                               Diagnostics& diagnostics);
 
 }  // namespace pedicel::discrepancy

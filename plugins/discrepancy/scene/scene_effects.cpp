@@ -18,7 +18,7 @@ std::vector<std::string> name_list(const Items& items) {
 }
 
 // What an effect may name by a word, and what there is of it.
-std::vector<std::string> known_of(const std::string& parameter, const SceneExperiment& experiment) {
+std::vector<std::string> known_of(const std::string& parameter, const Experiment& experiment) {
   if (parameter == "plant") return name_list(experiment.plants);
   if (parameter == "wrench") return name_list(experiment.wrenches);
   if (parameter == "camera") return name_list(experiment.cameras);
@@ -30,7 +30,7 @@ std::vector<std::string> known_of(const std::string& parameter, const SceneExper
 }
 
 void check_words(const io::YamlNode& node, const plant::Effect& effect,
-                 const SceneExperiment& experiment) {
+                 const Experiment& experiment) {
   for (const auto& [parameter, word] : effect.words) {
     const std::vector<std::string> known = known_of(parameter, experiment);
     if (known.empty() || std::ranges::find(known, word) != known.end()) continue;
@@ -110,11 +110,11 @@ std::vector<std::string> scene_spoken_for(const std::string& symptom) {
   return names;
 }
 
-bool is_seen(const SceneExperiment& experiment, int plant) {
+bool is_seen(const Experiment& experiment, int plant) {
   for (std::size_t m = 0; m < experiment.markers.size(); ++m) {
     if (experiment.markers[m].plant != plant) continue;
     const auto at = static_cast<long>(m);
-    for (const SceneTrial& trial : experiment.trials) {
+    for (const Trial& trial : experiment.trials) {
       if (has_column(trial.markers, 3 * at, 3)) return true;
       for (const Samples& pixels : trial.pixels)
         if (has_column(pixels, 2 * at, 2)) return true;
@@ -144,7 +144,7 @@ const SceneEffectDefinition* told_of_baseline(const plant::Effect& effect,
   return told ? known : nullptr;
 }
 
-bool apply_scene_effect(const plant::Effect& effect, const SceneExperiment& experiment,
+bool apply_scene_effect(const plant::Effect& effect, const Experiment& experiment,
                         SceneState& state) {
   const SceneEffectDefinition* definition = find_scene_effect(effect.name);
   if (!definition) return false;
@@ -157,7 +157,7 @@ bool is_only_seen(const plant::Effect& effect) {
   return definition ? definition->is_only_seen : is_of_sensor(effect);
 }
 
-plant::Effect read_scene_effect(const io::YamlNode& node, const SceneExperiment& experiment) {
+plant::Effect read_scene_effect(const io::YamlNode& node, const Experiment& experiment) {
   const bool named = node.is_map() && node.raw()["name"] && node.raw()["name"].IsScalar();
   const std::string name = named ? node.raw()["name"].Scalar() : "";
   plant::Effect effect;

@@ -16,7 +16,7 @@ namespace pedicel::discrepancy {
 /// What a scene effect acts on.
 struct SceneEffectTarget {
   const plant::Effect& effect;
-  const SceneExperiment& experiment;
+  const Experiment& experiment;
   SceneState& state;
 
   double number(const char* parameter) const { return effect.number(parameter); }
@@ -53,7 +53,7 @@ struct SceneEffectTarget {
 
 /// Where fits of a scene effect may begin.
 struct SceneStartContext {
-  const SceneExperiment& experiment;
+  const Experiment& experiment;
   const SceneSettings& settings = default_scene_settings();
 };
 
@@ -88,7 +88,7 @@ struct InBaseline {
     std::string name;
     double nominal = 0.0;
   };
-  Told (*told)(const SceneExperiment&, const plant::Effect&, int component) = nullptr;
+  Told (*told)(const Experiment&, const plant::Effect&, int component) = nullptr;
 };
 
 /// Everything that is known of a scene effect, in one place.
@@ -128,7 +128,7 @@ std::vector<SceneFit> starts_of(const SceneEffectDefinition& definition,
                                 const SceneStartContext& context);
 
 /// Whether a marker or an image point of a plant was measured.
-bool is_seen(const SceneExperiment& experiment, int plant);
+bool is_seen(const Experiment& experiment, int plant);
 
 /// Effects of the baseline: see InBaseline. With units and vanishing values of their definitions.
 std::vector<SceneFit> baseline_effects(const SceneStartContext& context);
@@ -139,7 +139,7 @@ const SceneEffectDefinition* told_of_baseline(const plant::Effect& effect,
                                               const effects::FreeParameter& free);
 
 /// Changes the state. False where it is no scene effect.
-bool apply_scene_effect(const plant::Effect& effect, const SceneExperiment& experiment,
+bool apply_scene_effect(const plant::Effect& effect, const Experiment& experiment,
                         SceneState& state);
 
 /// Whether an effect leaves the motion of a trial as it is.
@@ -147,7 +147,7 @@ bool is_only_seen(const plant::Effect& effect);
 
 /// Reads one entry of `effects:`, of a scene or of a plant. What it names (a plant, a link, a
 /// camera) must be there. Faults go to the node's diagnostics.
-plant::Effect read_scene_effect(const io::YamlNode& node, const SceneExperiment& experiment);
+plant::Effect read_scene_effect(const io::YamlNode& node, const Experiment& experiment);
 
 std::vector<SceneEffectDefinition> make_scene_effect_definitions();
 

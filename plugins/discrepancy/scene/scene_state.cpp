@@ -10,7 +10,7 @@ namespace {
 constexpr double hard = 1.0e6;  // N/m
 }
 
-SceneState nominal_state(const SceneExperiment& experiment) {
+SceneState nominal_state(const Experiment& experiment) {
   SceneState state;
   // What nobody states is hard: a stem that sticks to a finger holds it by its axial stiffness, and
   // a softer contact lets it creep.

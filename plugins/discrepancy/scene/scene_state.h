@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "plugins/coupling/coupling_settings.h"
-#include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 
@@ -42,6 +42,6 @@ struct SceneState {
 };
 
 /// As the experiment's files say. Throws InvalidFile where the scene's coupling is faulty.
-SceneState nominal_state(const SceneExperiment& experiment);
+SceneState nominal_state(const Experiment& experiment);
 
 }  // namespace pedicel::discrepancy

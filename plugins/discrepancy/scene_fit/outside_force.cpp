@@ -16,8 +16,7 @@ struct ForcePlace {
   plant::CurvePlace at;
 };
 
-std::vector<ForcePlace> places_of(const SceneExperiment& experiment,
-                                  const OutsideForceSettings& how) {
+std::vector<ForcePlace> places_of(const Experiment& experiment, const OutsideForceSettings& how) {
   std::vector<ForcePlace> places;
   double gap = how.spacing;
   do {
@@ -43,14 +42,14 @@ std::vector<ForcePlace> places_of(const SceneExperiment& experiment,
 }
 
 /// One trial of the experiment, in which the places are markers that nobody has seen.
-SceneExperiment with_places(const SceneExperiment& experiment, int trial,
-                            const std::vector<ForcePlace>& places) {
+Experiment with_places(const Experiment& experiment, int trial,
+                       const std::vector<ForcePlace>& places) {
   // A copy, so that the evaluator's experiment keeps its own markers and columns.
-  SceneExperiment own = experiment;
+  Experiment own = experiment;
   // One trial alone: a hand that pulls once does not pull in all of them.
   own.trials = {experiment.trials[static_cast<std::size_t>(trial)]};
   for (const ForcePlace& place : places) {
-    SceneMarker marker;
+    Marker marker;
     marker.name = "place " + std::to_string(own.markers.size());
     marker.plant = place.plant;
     marker.place = place.at;
@@ -80,7 +79,7 @@ SceneExperiment with_places(const SceneExperiment& experiment, int trial,
 
 class ForceSearch {
  public:
-  ForceSearch(const SceneExperiment& experiment, int trial, const std::vector<plant::Effect>& model,
+  ForceSearch(const Experiment& experiment, int trial, const std::vector<plant::Effect>& model,
               const SceneNumerics& numerics, const OutsideForceSettings& how, int threads)
       : how_(how),
         places_(places_of(experiment, how)),
@@ -259,7 +258,7 @@ class ForceSearch {
       for (long c = 0; c < samples.value.cols(); ++c)
         row_time_.insert(row_time_.end(), samples.time.begin(), samples.time.end());
     };
-    const SceneTrial& trial = own_.trials.front();
+    const Trial& trial = own_.trials.front();
     add(trial.markers);
     for (const Samples& one : trial.pixels) add(one);
     for (const Samples& one : trial.wrenches) add(one);
@@ -405,7 +404,7 @@ class ForceSearch {
     double below = 0.0, above = std::numeric_limits<double>::infinity();
     Vec3 off_below = Vec3::Zero(), off_above = Vec3::Zero();
     for (std::size_t m = 0; 3 * static_cast<long>(m) < first_; ++m) {
-      const SceneMarker& marker = own_.markers[m];
+      const Marker& marker = own_.markers[m];
       // Markers of other curves are off by what those do.
       if (marker.plant != force.plant || marker.place.curve != force.place.curve) continue;
       const long c = 3 * static_cast<long>(m);
@@ -434,7 +433,7 @@ class ForceSearch {
 
   const OutsideForceSettings& how_;
   std::vector<ForcePlace> places_;
-  SceneExperiment own_;
+  Experiment own_;
   long first_;  // column of the places' markers
   SceneDataSet data_;
   SceneSimulator simulator_;
@@ -448,7 +447,7 @@ class ForceSearch {
 
 OutsideForce find_outside_force(SceneEvaluator& evaluator, const std::vector<plant::Effect>& model,
                                 std::span<const int> trials, int threads) {
-  const SceneExperiment& experiment = evaluator.simulator().experiment();
+  const Experiment& experiment = evaluator.simulator().experiment();
   SceneVariant variant{model};
   // One trial is searched, the one in which it shows most: a search of all would take as long for
   // each.

@@ -41,8 +41,7 @@ std::vector<Ball> balls_of(const robot::RobotDescription& robot) {
 }
 
 // Where balls are, as readings or commands say: what is off about them is less than the margin.
-std::vector<std::pair<Vec3, double>> ways_of(const SceneExperiment& experiment,
-                                             const SceneTrial& trial) {
+std::vector<std::pair<Vec3, double>> ways_of(const Experiment& experiment, const Trial& trial) {
   const Arm arm(experiment, nominal_state(experiment));
   const Samples& table = trial.follows_commands ? trial.commands : trial.joints;
   const std::vector<int>& columns =
@@ -67,15 +66,15 @@ std::vector<std::pair<Vec3, double>> ways_of(const SceneExperiment& experiment,
 /// One plant of an experiment as it is drawn, and which of its curves are looked at.
 class Looked {
  public:
-  Looked(const SceneExperiment& experiment, int plant)
+  Looked(const Experiment& experiment, int plant)
       : experiment_(experiment),
         plant_(plant),
         own_(experiment.plants[static_cast<std::size_t>(plant)]),
         maker_(own_.file, own_.file.distance, options()),
         shown_(own_.file.curves.size(), 0) {
-    for (const SceneMarker& marker : experiment.markers)
+    for (const Marker& marker : experiment.markers)
       if (marker.plant == plant) show(curve_of(marker));
-    for (const SceneTrial& trial : experiment.trials) show_what_is_near(trial);
+    for (const Trial& trial : experiment.trials) show_what_is_near(trial);
   }
 
   bool any() const { return std::ranges::find(shown_, 1) != shown_.end(); }
@@ -101,12 +100,12 @@ class Looked {
   effects::StartContext context() const {
     effects::StartContext context{own_.file, scales(), 0.0, {}, {}, false};
     double first = 1e300, last = -1e300;
-    for (const SceneTrial& trial : experiment_.trials) {
+    for (const Trial& trial : experiment_.trials) {
       first = std::min(first, trial.clock);
       last = std::max(last, trial.clock + trial.duration());
     }
     context.clock_span = last - first;
-    for (const SceneMarker& marker : experiment_.markers)
+    for (const Marker& marker : experiment_.markers)
       if (marker.plant == plant_) context.markers.push_back(marker.name);
     return context;
   }
@@ -119,7 +118,7 @@ class Looked {
     return how;
   }
 
-  std::string curve_of(const SceneMarker& marker) const {
+  std::string curve_of(const Marker& marker) const {
     return marker.fruit < 0 ? marker.place.curve
                             : own_.file.fruits[static_cast<std::size_t>(marker.fruit)].place.curve;
   }
@@ -127,7 +126,7 @@ class Looked {
     if (const int c = own_.file.curve_index(curve); c >= 0) shown_[static_cast<std::size_t>(c)] = 1;
   }
 
-  void show_what_is_near(const SceneTrial& trial) {
+  void show_what_is_near(const Trial& trial) {
     const cosserat::RodState drawn = cosserat::drawn_state(maker_.nominal().model);
     const auto moved = trial.poses.find(plant_);
     const Pose& pose = moved == trial.poses.end() ? own_.pose : moved->second;
@@ -150,7 +149,7 @@ class Looked {
 
   effects::Scales scales() const {
     std::vector<Samples> seen;
-    for (const SceneTrial& trial : experiment_.trials) seen.push_back(markers_in(trial));
+    for (const Trial& trial : experiment_.trials) seen.push_back(markers_in(trial));
     std::vector<TrialScales> trials;
     for (std::size_t t = 0; t < seen.size(); ++t)
       trials.push_back({seen[t], experiment_.trials[t].duration(), false});
@@ -162,7 +161,7 @@ class Looked {
   }
 
   // The columns of this plant's markers.
-  Samples markers_in(const SceneTrial& trial) const {
+  Samples markers_in(const Trial& trial) const {
     Samples own;
     own.time = trial.markers.time;
     std::vector<long> columns;
@@ -176,9 +175,9 @@ class Looked {
     return own;
   }
 
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   int plant_;
-  const ScenePlantFile& own_;
+  const ExperimentPlant& own_;
   PlantMaker maker_;
   std::vector<char> shown_;  // by curve
 };
@@ -192,7 +191,7 @@ bool is_tried(const effects::EffectDefinition& one) {
 
 }  // namespace
 
-std::vector<SceneFit> plant_starts(const SceneExperiment& experiment,
+std::vector<SceneFit> plant_starts(const Experiment& experiment,
                                    const std::vector<plant::Effect>& beside) {
   std::vector<SceneFit> all;
   std::deque<Looked> plants;

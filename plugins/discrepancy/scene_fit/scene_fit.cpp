@@ -321,7 +321,7 @@ effects::Start factor_start(const effects::EffectDefinition& factor,
 
 }  // namespace
 
-Hypothesis scene_baseline(const SceneExperiment& experiment, const SceneSettings& settings) {
+Hypothesis scene_baseline(const Experiment& experiment, const SceneSettings& settings) {
   const SceneFitSettings& known = settings.fit;
   Hypothesis baseline;
   for (const effects::EffectDefinition* one : effects::material_factors())

@@ -77,7 +77,7 @@ Between between(const SceneFitResult& one, const SceneFitResult& other);
 
 /// Modulus, density and damping of the plants, as factors on what their files say; and where a
 /// plant stands, where nothing that was measured shows it but what it does to the arm.
-Hypothesis scene_baseline(const SceneExperiment& experiment,
+Hypothesis scene_baseline(const Experiment& experiment,
                           const SceneSettings& settings = default_scene_settings());
 
 }  // namespace pedicel::discrepancy

@@ -353,7 +353,7 @@ std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneF
                                          const std::vector<std::string>& has,
                                          std::span<const int> trials, std::vector<SeenFrom>* seen) {
   Screen screen(evaluator, base, trials);
-  const SceneExperiment& experiment = evaluator.simulator().experiment();
+  const Experiment& experiment = evaluator.simulator().experiment();
   for (const SceneEffectDefinition& definition : scene_effect_definitions()) {
     // Twice the same cause would be one with more numbers.
     if (std::ranges::find(has, definition.name) != has.end()) continue;

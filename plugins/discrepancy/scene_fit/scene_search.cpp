@@ -63,10 +63,10 @@ bool holds_elsewhere(const std::optional<double>& excess, const std::optional<do
 }
 
 // 1, relative: how well a plant's file says it knows a number of its material; 0: it does not say.
-double stated_of(const SceneExperiment& experiment, const plant::MaterialKey& number) {
+double stated_of(const Experiment& experiment, const plant::MaterialKey& number) {
   double most = 0.0;
   // The largest of several plants: a factor is on all of them.
-  for (const ScenePlantFile& plant : experiment.plants)
+  for (const ExperimentPlant& plant : experiment.plants)
     most = std::max(most, plant::stated_knowledge(plant.file.material, number));
   return most;
 }
@@ -110,7 +110,7 @@ bool speaks_for(const SceneFitResult& one, const SceneFitResult& other, int numb
 }
 
 // Numbers beside the causes that left what is known of them.
-std::vector<std::string> material_of(const SceneFitResult& fit, const SceneExperiment& experiment,
+std::vector<std::string> material_of(const SceneFitResult& fit, const Experiment& experiment,
                                      const SceneSearchSettings& how) {
   std::vector<std::string> names;
   // A number of the plant that goes far in a fit that explains the data is a finding beside the
@@ -629,7 +629,7 @@ class Search {
   SceneEvaluator& evaluator_;
   const SceneSearchOptions& options_;
   const SceneSearchSettings& how_;
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   SceneFindings found_;
 };
 
@@ -661,7 +661,7 @@ std::string joined_names(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string findings_text(const SceneFindings& found, const SceneExperiment&) {
+std::string findings_text(const SceneFindings& found, const Experiment&) {
   const auto units = [](double value) { return io::format_number(value, 3); };
   std::string text = "misfit beyond the noise, in noise units: " + units(found.nominal_excess) +
                      " as the files say, " + units(found.baseline_excess) +

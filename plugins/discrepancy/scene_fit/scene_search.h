@@ -72,7 +72,7 @@ struct SceneFindings {
 SceneFindings search_scene(SceneEvaluator& evaluator, const SceneSearchOptions& options);
 
 /// For people: the fits, and what they say.
-std::string findings_text(const SceneFindings& findings, const SceneExperiment& experiment);
+std::string findings_text(const SceneFindings& findings, const Experiment& experiment);
 
 /// "contact_friction and payload".
 std::string joined_names(const std::vector<std::string>& names);

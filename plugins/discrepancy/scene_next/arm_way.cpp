@@ -22,7 +22,7 @@ double median_step(const std::vector<double>& time) {
   return std::clamp(steps[steps.size() / 2], finest, coarsest);
 }
 
-Eigen::VectorXd start_of(const SceneExperiment& experiment) {
+Eigen::VectorXd start_of(const Experiment& experiment) {
   return Arm(experiment, nominal_state(experiment)).start();
 }
 
@@ -55,7 +55,7 @@ Eigen::VectorXd ArmWay::fastest() const {
   return most;
 }
 
-ArmWay measured_way(const SceneExperiment& experiment, const SceneTrial& trial) {
+ArmWay measured_way(const Experiment& experiment, const Trial& trial) {
   const Samples& log = trial.follows_commands ? trial.commands : trial.joints;
   ArmWay way;
   way.step = median_step(log.time);
@@ -81,8 +81,7 @@ ArmWay measured_way(const SceneExperiment& experiment, const SceneTrial& trial) 
   return way;
 }
 
-WayCheck::WayCheck(const SceneExperiment& experiment, const SceneTrial& trial,
-                   const ArmWay& measured)
+WayCheck::WayCheck(const Experiment& experiment, const Trial& trial, const ArmWay& measured)
     : arm_(experiment, nominal_state(experiment)),
       fields_(simulation::exact_fields_of(arm_.description())) {
   add_plants(experiment, trial);
@@ -111,9 +110,9 @@ WayCheck::WayCheck(const SceneExperiment& experiment, const SceneTrial& trial,
   start_clearance_ = std::min(stand_off, clearance(measured.q.front()));
 }
 
-void WayCheck::add_plants(const SceneExperiment& experiment, const SceneTrial& trial) {
+void WayCheck::add_plants(const Experiment& experiment, const Trial& trial) {
   for (std::size_t p = 0; p < experiment.plants.size(); ++p) {
-    const ScenePlantFile& plant = experiment.plants[p];
+    const ExperimentPlant& plant = experiment.plants[p];
     const auto moved = trial.poses.find(static_cast<int>(p));
     const Pose& X_WP = moved != trial.poses.end() ? moved->second : plant.pose;
     for (const plant::PlantCurve& curve : plant.file.curves)

@@ -21,14 +21,14 @@ struct ArmWay {
 };
 
 /// The way of a trial that was measured: its encoders, smoothed, or its commands as they were told.
-ArmWay measured_way(const SceneExperiment& experiment, const SceneTrial& trial);
+ArmWay measured_way(const Experiment& experiment, const Trial& trial);
 
 /// Whether an arm may go a way: as the URDF's limits, the ground and the scene's bodies let it, and
 /// always where `measured` went.
 class WayCheck {
  public:
   /// `trial` says where the plants stand. Keeps references to neither.
-  WayCheck(const SceneExperiment& experiment, const SceneTrial& trial, const ArmWay& measured);
+  WayCheck(const Experiment& experiment, const Trial& trial, const ArmWay& measured);
 
   bool allows(const ArmWay& way) const;
   /// m, from the links to the plants as drawn; negative where they overlap.
@@ -50,7 +50,7 @@ class WayCheck {
   Eigen::VectorXd lowest(const Eigen::VectorXd& q) const;
   bool is_in(const Box& body, const Eigen::VectorXd& q) const;
   std::pair<double, std::size_t> nearest(const Eigen::VectorXd& q) const;
-  void add_plants(const SceneExperiment& experiment, const SceneTrial& trial);
+  void add_plants(const Experiment& experiment, const Trial& trial);
 
   Arm arm_;
   simulation::ShapeFields fields_;

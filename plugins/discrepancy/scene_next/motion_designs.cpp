@@ -32,7 +32,7 @@ double smooth_share(double s) {
   return s * s * s * (10.0 + s * (-15.0 + 6.0 * s));
 }
 
-bool takes_hold(const SceneTrial& trial) {
+bool takes_hold(const Trial& trial) {
   return std::ranges::any_of(trial.events,
                              [](const MeasuredEvent& one) { return one.event == "grasped"; });
 }
@@ -40,7 +40,7 @@ bool takes_hold(const SceneTrial& trial) {
 /// Makes the motions of one trial.
 class Designs {
  public:
-  Designs(const SceneExperiment& experiment, const SceneTrial& base)
+  Designs(const Experiment& experiment, const Trial& base)
       : base_(base),
         way_(measured_way(experiment, base)),
         check_(experiment, base, way_),
@@ -236,7 +236,7 @@ class Designs {
     if (!check_.allows(way)) return false;
     MotionDesign design;
     design.action = action;
-    SceneTrial& trial = design.trial;
+    Trial& trial = design.trial;
     trial.name = "motion_" + std::to_string(designs_.size() + 1);
     trial.folder = trial.name;
     trial.clock = base_.clock + base_.duration();
@@ -293,7 +293,7 @@ class Designs {
     return samples;
   }
 
-  const SceneTrial& base_;
+  const Trial& base_;
   ArmWay way_;
   WayCheck check_;
   const robot::KinematicModel& model_;
@@ -304,7 +304,7 @@ class Designs {
 
 }  // namespace
 
-std::vector<MotionDesign> motion_designs(const SceneExperiment& experiment, int trial) {
+std::vector<MotionDesign> motion_designs(const Experiment& experiment, int trial) {
   return Designs(experiment, experiment.trials[static_cast<std::size_t>(trial)]).run();
 }
 

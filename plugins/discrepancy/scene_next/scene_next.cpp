@@ -32,7 +32,7 @@ SceneVariant variant_of(const Hypothesis& model) {
 /// call(samples, matrix of each prediction, name and unit of a column, kind of a column), in the
 /// order of SceneDataSet::residual().
 template <class Call>
-void each_table(const SceneExperiment& experiment, SceneTrial& trial,
+void each_table(const Experiment& experiment, Trial& trial,
                 std::span<const SceneReadings> predictions, const Call& call) {
   const auto all = [&](const auto& take) {
     std::vector<const Eigen::MatrixXd*> values;
@@ -78,7 +78,7 @@ void each_table(const SceneExperiment& experiment, SceneTrial& trial,
 
 /// Lays the first prediction into the trial's tables as if it had been measured, so that its
 /// residual is zero; what one of the models does not see has no difference, and stays open.
-void measure_first(const SceneExperiment& experiment, SceneTrial& trial,
+void measure_first(const Experiment& experiment, Trial& trial,
                    std::span<const SceneReadings> predictions) {
   each_table(experiment, trial, predictions,
              [](Samples& samples, const std::vector<const Eigen::MatrixXd*>& all, const auto&) {
@@ -90,15 +90,15 @@ void measure_first(const SceneExperiment& experiment, SceneTrial& trial,
 }
 
 // The deviations of all that was measured, stated or seen.
-SceneNoise seen_noise(const SceneExperiment& experiment, const SceneDataSet& data, int base) {
-  SceneNoise noise;
+StatedNoise seen_noise(const Experiment& experiment, const SceneDataSet& data, int base) {
+  StatedNoise noise;
   noise.position_std = data.deviation(SceneChannel::position);
   noise.pixel_std = data.deviation(SceneChannel::pixel);
   noise.force_std = data.deviation(SceneChannel::force);
   noise.moment_std = data.deviation(SceneChannel::moment);
   noise.torque_std = data.deviation(SceneChannel::torque);
   noise.joint_std = experiment.noise.joint_std;
-  const SceneTrial& trial = experiment.trials[static_cast<std::size_t>(base)];
+  const Trial& trial = experiment.trials[static_cast<std::size_t>(base)];
   if (noise.joint_std) return noise;
   if (trial.follows_commands) {
     noise.joint_std = data.deviation(SceneChannel::joint);
@@ -112,7 +112,7 @@ SceneNoise seen_noise(const SceneExperiment& experiment, const SceneDataSet& dat
 
 class Choice {
  public:
-  Choice(const SceneExperiment& experiment, const SceneDataSet& data,
+  Choice(const Experiment& experiment, const SceneDataSet& data,
          const std::vector<OpenModel>& models, const SceneNextOptions& options)
       : experiment_(experiment), models_(models), options_(options), plan_(experiment) {
     plan_.trials.clear();
@@ -216,7 +216,7 @@ class Choice {
       for (std::size_t i = refitted_motions; i < motions.size(); ++i) tell(designs, motions[i]);
       motions.resize(refitted_motions);
     }
-    SceneExperiment few = plan_;
+    Experiment few = plan_;
     few.trials.clear();
     for (const Motion& one : motions) few.trials.push_back(plan_.trials[one.design]);
     SceneSimulator simulator(few, options_.numerics, options_.threads, options_.stop);
@@ -356,7 +356,7 @@ class Choice {
 
   // The channel with the largest difference of the two in one sample: people look at one curve.
   void set_channel(const Motion& best) {
-    SceneTrial trial = plan_.trials[best.design];
+    Trial trial = plan_.trials[best.design];
     const SceneDataSet data(plan_);
     double most = -1.0;
     each_table(plan_, trial, best.predictions,
@@ -383,15 +383,15 @@ class Choice {
 
   // The motion as a plan: on the scene as it stands, with nothing measured.
   void plan(const MotionDesign& design) {
-    SceneExperiment planned = plan_;
+    Experiment planned = plan_;
     planned.title = "next: " + design.action;
     planned.noise = experiment_.noise;
     planned.trials = {design.trial};
-    SceneTrial& trial = planned.trials.front();
+    Trial& trial = planned.trials.front();
     // A name that no trial has yet, so that its folder can lie beside theirs.
     for (int i = 1;; ++i) {
       trial.name = "next_" + std::to_string(i);
-      if (std::ranges::find(experiment_.trials, trial.name, &SceneTrial::name) ==
+      if (std::ranges::find(experiment_.trials, trial.name, &Trial::name) ==
           experiment_.trials.end())
         break;
     }
@@ -399,10 +399,10 @@ class Choice {
     next_.experiment = std::move(planned);
   }
 
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   const std::vector<OpenModel>& models_;
   const SceneNextOptions& options_;
-  SceneExperiment plan_;  // all motions
+  Experiment plan_;  // all motions
   std::vector<SceneVariant> variants_;
   double old_samples_ = 0.0;
   long simulations_ = 0;
@@ -432,7 +432,7 @@ std::vector<OpenModel> open_models(const SceneFindings& found) {
   return models;
 }
 
-SceneNext next_scene_experiment(const SceneExperiment& experiment, const SceneDataSet& data,
+SceneNext next_scene_experiment(const Experiment& experiment, const SceneDataSet& data,
                                 const std::vector<OpenModel>& models,
                                 const SceneNextOptions& options, long& simulations) {
   // Nothing to tell apart.

@@ -21,9 +21,9 @@ struct SceneNext {
   std::vector<Tried> tried;        ///< the best first
   /// The motion with empty tables, on the scene as it stands, and what each model predicts for it.
   /// Absent where no motion parts them.
-  std::optional<SceneExperiment> experiment;
+  std::optional<Experiment> experiment;
   std::vector<SceneReadings> predictions;
-  SceneNoise noise;  ///< of the instruments, as seen so far
+  StatedNoise noise;  ///< of the instruments, as seen so far
   /// What differs most, for a drawing.
   struct Channel {
     std::string name, unit;
@@ -55,7 +55,7 @@ struct SceneNextOptions {
 /// Simulates motions of the arm for each of the models, and chooses the one that parts the first
 /// of them best from the one nearest to it, both refitted. `data`: of the trials so far.
 /// `simulations` counts what was simulated.
-SceneNext next_scene_experiment(const SceneExperiment& experiment, const SceneDataSet& data,
+SceneNext next_scene_experiment(const Experiment& experiment, const SceneDataSet& data,
                                 const std::vector<OpenModel>& models,
                                 const SceneNextOptions& options, long& simulations);
 

@@ -12,7 +12,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-robot::Trajectory commands_of(const SceneTrial& trial, const Arm& arm) {
+robot::Trajectory commands_of(const Trial& trial, const Arm& arm) {
   std::vector<Eigen::VectorXd> rows;
   for (int r = 0; r < trial.commands.size(); ++r) {
     Eigen::VectorXd q = rows.empty() ? arm.start() : rows.back();
@@ -37,8 +37,8 @@ JointPath path_through(std::vector<double> time, const std::vector<Eigen::Vector
   return JointPath::through(std::move(time), positions, speeds);
 }
 
-JointPath run_arm(const SceneExperiment& experiment, const SceneTrial& trial,
-                  const SceneState& state, const Arm& arm, double dt, double until) {
+JointPath run_arm(const Experiment& experiment, const Trial& trial, const SceneState& state,
+                  const Arm& arm, double dt, double until) {
   const robot::RobotDescription description = with_friction(arm.description(), state);
   world::WorldSettings settings;
   settings.dt = dt;

@@ -13,7 +13,7 @@ constexpr double failed = 1.0e3;
 
 /// call(samples, prediction or null, column of both, kind)
 template <class Call>
-void for_each_channel(const SceneTrial& trial, const SceneReadings* readings, const Call& call) {
+void for_each_channel(const Trial& trial, const SceneReadings* readings, const Call& call) {
   const auto table = [&](const Samples& samples, const Eigen::MatrixXd* predicted,
                          const auto& kind) {
     for (long c = 0; c < samples.value.cols(); ++c) call(samples, predicted, c, kind(c));
@@ -109,8 +109,8 @@ const char* channel_name(SceneChannel kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-SceneDataSet::SceneDataSet(const SceneExperiment& experiment) : experiment_(&experiment) {
-  const SceneNoise& noise = experiment.noise;
+SceneDataSet::SceneDataSet(const Experiment& experiment) : experiment_(&experiment) {
+  const StatedNoise& noise = experiment.noise;
   const std::optional<double> stated[] = {noise.position_std, noise.pixel_std,  noise.force_std,
                                           noise.moment_std,   noise.torque_std, noise.joint_std};
   for (std::size_t k = 0; k < deviation_.size(); ++k) {
@@ -120,7 +120,7 @@ SceneDataSet::SceneDataSet(const SceneExperiment& experiment) : experiment_(&exp
     }
     double square = 0.0;
     int count = 0;
-    for (const SceneTrial& trial : experiment.trials)
+    for (const Trial& trial : experiment.trials)
       for_each_channel(
           trial, nullptr,
           [&](const Samples& samples, const Eigen::MatrixXd*, long c, SceneChannel kind) {

@@ -20,7 +20,7 @@ class SceneDataSet {
  public:
   /// Deviations as stated; what is not is estimated from third differences of neighbouring samples,
   /// by a part in ten of each column that has few of them. Keeps a reference.
-  explicit SceneDataSet(const SceneExperiment& experiment);
+  explicit SceneDataSet(const Experiment& experiment);
 
   /// Counts samples less where predictions are unsure of themselves: `others` are predictions as
   /// good as `reference`, and how far they are from it adds to the noise of the samples around.
@@ -61,7 +61,7 @@ class SceneDataSet {
     return t < weight_.size() && place < weight_[t].size() ? weight_[t][place] : 1.0;
   }
 
-  const SceneExperiment* experiment_;
+  const Experiment* experiment_;
   std::array<double, scene_channels> deviation_{};
   std::vector<Eigen::VectorXd> weight_;  // 1, by trial, in the order of residual(); or empty
 };

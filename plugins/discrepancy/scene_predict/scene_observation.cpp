@@ -51,10 +51,10 @@ double half_sample(const std::vector<double>& time) {
 
 class Observer {
  public:
-  Observer(const SceneExperiment& experiment, const SceneMotion& motion, const SceneMember& member,
+  Observer(const Experiment& experiment, const SceneMotion& motion, const SceneMember& member,
            std::span<const plant::Effect> all)
       : experiment_(experiment), motion_(motion), member_(member) {
-    for (const SceneMarker& marker : experiment.markers) sensor_.markers.push_back(marker.name);
+    for (const Marker& marker : experiment.markers) sensor_.markers.push_back(marker.name);
     sensor_.offset.assign(experiment.markers.size(), Vec3::Zero());
     for (const plant::Effect& effect : all) effects::apply_to_sensor(effect, sensor_);
   }
@@ -68,7 +68,7 @@ class Observer {
     if (at.row < 0) return out;
     bool posed = false;
     for (std::size_t m = 0; m < experiment_.markers.size(); ++m) {
-      const SceneMarker& marker = experiment_.markers[m];
+      const Marker& marker = experiment_.markers[m];
       const auto c = static_cast<long>(m);
       Vec3 place;
       if (marker.plant < 0) {
@@ -144,7 +144,7 @@ class Observer {
     return out;
   }
 
-  Eigen::MatrixXd torques(const SceneTrial& trial) {
+  Eigen::MatrixXd torques(const Trial& trial) {
     const Samples& samples = trial.torques;
     const robot::KinematicModel& model = member_.arm->model();
     robot::Dynamics dynamics(member_.arm->description(), model);
@@ -167,7 +167,7 @@ class Observer {
   }
 
   /// What encoders read of an arm that follows commands.
-  Eigen::MatrixXd encoders(const SceneTrial& trial) const {
+  Eigen::MatrixXd encoders(const Trial& trial) const {
     Eigen::MatrixXd out(trial.joints.size(), static_cast<long>(trial.joint_columns.size()));
     for (int s = 0; s < trial.joints.size(); ++s) {
       const double t = trial.joints.time[static_cast<std::size_t>(s)] - member_.state->robot_delay;
@@ -248,7 +248,7 @@ class Observer {
     if (count > 0) out.rowwise() -= out.topRows(count).colwise().mean().eval();
   }
 
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   const SceneMotion& motion_;
   const SceneMember& member_;
   effects::SensorState sensor_;
@@ -257,7 +257,7 @@ class Observer {
 
 }  // namespace
 
-SceneReadings observe_scene(const SceneExperiment& experiment, const SceneTrial& trial,
+SceneReadings observe_scene(const Experiment& experiment, const Trial& trial,
                             const SceneMotion& motion, const SceneMember& member,
                             std::span<const plant::Effect> effects) {
   SceneReadings out;

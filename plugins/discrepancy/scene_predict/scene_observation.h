@@ -20,7 +20,7 @@ struct SceneReadings {
 
 /// Motion to readings. `effects`: those of the experiment's instruments that plants' experiments
 /// have, too (latency, marker_offset, frame_rotation, marker_scale).
-SceneReadings observe_scene(const SceneExperiment& experiment, const SceneTrial& trial,
+SceneReadings observe_scene(const Experiment& experiment, const Trial& trial,
                             const SceneMotion& motion, const SceneMember& member,
                             std::span<const plant::Effect> effects);
 

@@ -34,8 +34,8 @@ class NoiseMaker {
 
 }  // namespace
 
-SceneExperiment observed_scene(SceneExperiment like, const SceneVariant& variant,
-                               const SceneObserveOptions& options) {
+Experiment observed_scene(Experiment like, const SceneVariant& variant,
+                          const SceneObserveOptions& options) {
   std::vector<SceneReadings> found;
   std::vector<Eigen::MatrixXd> encoders;
   {
@@ -44,7 +44,7 @@ SceneExperiment observed_scene(SceneExperiment like, const SceneVariant& variant
     for (int t = 0; t < static_cast<int>(like.trials.size()); ++t)
       requests.push_back({&variant, t});
     found = simulator.run(requests);
-    for (const SceneTrial& trial : like.trials) {
+    for (const Trial& trial : like.trials) {
       encoders.emplace_back();
       if (trial.follows_commands) continue;
       const JointPath path = path_of(like, trial);
@@ -60,10 +60,10 @@ SceneExperiment observed_scene(SceneExperiment like, const SceneVariant& variant
   NoiseMaker noise(options.seed);
   constexpr long all = 1000000;
   for (std::size_t t = 0; t < found.size(); ++t) {
-    SceneTrial& trial = like.trials[t];
+    Trial& trial = like.trials[t];
     if (!found[t].healthy)
       throw SceneFailed("trial \"" + trial.name + "\" cannot be simulated: lower --dt");
-    const SceneNoise stated = options.noise ? like.noise : SceneNoise{};
+    const StatedNoise stated = options.noise ? like.noise : StatedNoise{};
     take(trial.joints, trial.follows_commands ? found[t].joints : encoders[t]);
     noise.add(trial.joints, 0, all, stated.joint_std);
     take(trial.markers, found[t].markers);

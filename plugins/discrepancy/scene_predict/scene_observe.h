@@ -21,7 +21,7 @@ class SceneFailed : public std::runtime_error {
 /// What the instruments of `like` would report of a variant of its scene, at its own times: a
 /// measured experiment made by simulation. Gaps stay gaps; where a table is empty nothing is made.
 /// Throws SceneFailed where a trial cannot be simulated.
-SceneExperiment observed_scene(SceneExperiment like, const SceneVariant& variant,
-                               const SceneObserveOptions& options);
+Experiment observed_scene(Experiment like, const SceneVariant& variant,
+                          const SceneObserveOptions& options);
 
 }  // namespace pedicel::discrepancy

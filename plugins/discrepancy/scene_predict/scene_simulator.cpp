@@ -21,11 +21,10 @@ constexpr std::size_t most_kept = 64;  // motions, some 2 MB each
 
 using Makers = std::vector<std::unique_ptr<PlantMaker>>;
 
-Makers makers_of(const SceneExperiment& experiment, const SceneTrial& trial,
-                 const SceneNumerics& numerics) {
+Makers makers_of(const Experiment& experiment, const Trial& trial, const SceneNumerics& numerics) {
   Makers makers;
   for (std::size_t p = 0; p < experiment.plants.size(); ++p) {
-    const ScenePlantFile& plant = experiment.plants[p];
+    const ExperimentPlant& plant = experiment.plants[p];
     const auto moved = trial.poses.find(static_cast<int>(p));
     plant::BuildOptions options;
     options.pose = moved == trial.poses.end() ? plant.pose : moved->second;
@@ -39,7 +38,7 @@ Makers makers_of(const SceneExperiment& experiment, const SceneTrial& trial,
 }
 
 // A log of a run is predicted as it was run.
-SceneNumerics numerics_of(const SceneExperiment& experiment, SceneNumerics numerics) {
+SceneNumerics numerics_of(const Experiment& experiment, SceneNumerics numerics) {
   if (!experiment.is_run) return numerics;
   numerics.as_run = true;
   numerics.dt = numerics.run_steps * experiment.scene.dt;
@@ -47,8 +46,7 @@ SceneNumerics numerics_of(const SceneExperiment& experiment, SceneNumerics numer
   return numerics;
 }
 
-simulation::ShapeFields fields_for(const SceneExperiment& experiment,
-                                   const SceneNumerics& numerics) {
+simulation::ShapeFields fields_for(const Experiment& experiment, const SceneNumerics& numerics) {
   std::vector<std::string> notes;  // about meshes that are large: nothing for an experiment
   return numerics.as_run ? simulation::fields_of(experiment.robot, notes)
                          : simulation::exact_fields_of(experiment.robot);
@@ -92,7 +90,7 @@ struct Prepared {
 
 }  // namespace
 
-JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, int draw) {
+JointPath path_of(const Experiment& experiment, const Trial& trial, int draw) {
   const robot::KinematicModel model(experiment.robot);
   Eigen::VectorXd start = model.neutral();
   for (const auto& [joint, value] : experiment.scene.robot->joints)
@@ -119,7 +117,7 @@ JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, in
 }
 
 struct SceneSimulator::Impl {
-  Impl(const SceneExperiment& given, const SceneNumerics& how, int threads,
+  Impl(const Experiment& given, const SceneNumerics& how, int threads,
        const std::atomic<bool>* caller)
       : experiment(given),
         numerics(numerics_of(given, how)),
@@ -127,14 +125,14 @@ struct SceneSimulator::Impl {
         nominal(nominal_state(given)),
         pool(threads),
         stop(caller ? *caller : never) {
-    for (const SceneTrial& trial : given.trials) {
+    for (const Trial& trial : given.trials) {
       paths.push_back(path_of(given, trial));
       makers.push_back(makers_of(given, trial, numerics));
     }
   }
 
   Prepared prepare(const Request& request) const {
-    const SceneTrial& trial = experiment.trials[static_cast<std::size_t>(request.trial)];
+    const Trial& trial = experiment.trials[static_cast<std::size_t>(request.trial)];
     Prepared out;
     out.state = nominal;
     std::vector<plant::Effect> all;
@@ -173,7 +171,7 @@ struct SceneSimulator::Impl {
   void follow_commands(std::span<const Request> requests, std::vector<Prepared>& prepared) {
     pool.for_each(static_cast<int>(requests.size()), [&](int r) {
       const auto at = static_cast<std::size_t>(r);
-      const SceneTrial& trial = experiment.trials[static_cast<std::size_t>(requests[at].trial)];
+      const Trial& trial = experiment.trials[static_cast<std::size_t>(requests[at].trial)];
       if (!trial.follows_commands || stop) return;
       Prepared& one = prepared[at];
       one.run = run_arm(experiment, trial, one.state, *one.arm, numerics.dt,
@@ -228,7 +226,7 @@ struct SceneSimulator::Impl {
     pool.for_each(static_cast<int>(groups.size()), [&](int g) {
       const Group& group = groups[static_cast<std::size_t>(g)];
       const auto t = static_cast<std::size_t>(group.trial);
-      const SceneTrial& trial = experiment.trials[t];
+      const Trial& trial = experiment.trials[t];
       std::vector<SceneMember> members;
       for (const auto& job : group.jobs) members.push_back(prepared[job.front()].member);
       std::vector<SceneMotion> motions =
@@ -262,7 +260,7 @@ struct SceneSimulator::Impl {
     if (kept.size() > most_kept) kept.pop_front();
   }
 
-  const SceneExperiment& experiment;
+  const Experiment& experiment;
   SceneNumerics numerics;
   simulation::ShapeFields fields;
   SceneState nominal;
@@ -277,7 +275,7 @@ struct SceneSimulator::Impl {
   std::deque<std::pair<std::string, std::shared_ptr<const SceneMotion>>> kept;
 };
 
-SceneSimulator::SceneSimulator(const SceneExperiment& experiment, const SceneNumerics& numerics,
+SceneSimulator::SceneSimulator(const Experiment& experiment, const SceneNumerics& numerics,
                                int threads, const std::atomic<bool>* stop)
     : impl_(std::make_unique<Impl>(experiment, numerics, threads, stop)) {}
 SceneSimulator::~SceneSimulator() = default;
@@ -285,7 +283,7 @@ SceneSimulator::~SceneSimulator() = default;
 std::vector<SceneReadings> SceneSimulator::run(std::span<const Request> requests) {
   return impl_->run(requests);
 }
-const SceneExperiment& SceneSimulator::experiment() const {
+const Experiment& SceneSimulator::experiment() const {
   return impl_->experiment;
 }
 const SceneNumerics& SceneSimulator::numerics() const {

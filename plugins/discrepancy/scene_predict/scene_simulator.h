@@ -26,7 +26,7 @@ class SceneSimulator {
  public:
   /// Keeps a reference to the experiment. Once `stop` is set, run() returns early: what is not done
   /// is unhealthy. Throws InvalidFile where a plant cannot be built.
-  SceneSimulator(const SceneExperiment& experiment, const SceneNumerics& numerics, int threads,
+  SceneSimulator(const Experiment& experiment, const SceneNumerics& numerics, int threads,
                  const std::atomic<bool>* stop = nullptr);
   ~SceneSimulator();
 
@@ -39,7 +39,7 @@ class SceneSimulator {
   /// simulated.
   std::vector<SceneReadings> run(std::span<const Request> requests);
 
-  const SceneExperiment& experiment() const;
+  const Experiment& experiment() const;
   const SceneNumerics& numerics() const;
   long simulations() const;  ///< trials simulated so far
 
@@ -50,6 +50,6 @@ class SceneSimulator {
 
 /// The arm's joints in a trial, smoothed within their noise, in the order of the robot's model.
 /// `draw`: as SceneVariant's.
-JointPath path_of(const SceneExperiment& experiment, const SceneTrial& trial, int draw = 0);
+JointPath path_of(const Experiment& experiment, const Trial& trial, int draw = 0);
 
 }  // namespace pedicel::discrepancy

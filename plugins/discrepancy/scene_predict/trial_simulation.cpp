@@ -24,8 +24,7 @@ using simulation::SceneAssets;
 
 // As for trials of plants (trial_run.cpp), but for contact, whose iterations end where they find
 // no better place.
-cosserat::RodSettings solver_settings(const SceneExperiment& experiment,
-                                      const SceneNumerics& numerics) {
+cosserat::RodSettings solver_settings(const Experiment& experiment, const SceneNumerics& numerics) {
   cosserat::RodSettings settings;
   if (numerics.as_run) {
     Diagnostics read_before;
@@ -38,7 +37,7 @@ cosserat::RodSettings solver_settings(const SceneExperiment& experiment,
 }
 
 /// The scene without what leads its robot and what looks at it: readings and recorder do that.
-world::Scene scene_of(const SceneExperiment& experiment, double dt) {
+world::Scene scene_of(const Experiment& experiment, double dt) {
   world::Scene scene = experiment.scene;
   scene.dt = dt;
   scene.threads = 1;
@@ -54,7 +53,7 @@ world::Scene scene_of(const SceneExperiment& experiment, double dt) {
 /// What one variant's simulation is made of.
 class Parts {
  public:
-  Parts(const SceneExperiment& experiment, const SceneTrial& trial,
+  Parts(const Experiment& experiment, const Trial& trial,
         std::span<const std::unique_ptr<PlantMaker>> makers, const simulation::ShapeFields& fields,
         const SceneNumerics& numerics, const SceneMember& member)
       : experiment_(experiment),
@@ -146,13 +145,13 @@ class Parts {
   Trial masses_of(int plant) const {
     Trial trial;
     trial.clock = trial_.clock;
-    for (const SceneTrial::Mass& mass : trial_.masses)
-      if (mass.plant == plant) trial.masses.push_back(mass.mass);
+    for (const Trial::Mass& mass : trial_.masses)
+      if (mass.plant == plant) trial.masses.push_back(mass);
     return trial;
   }
 
-  const SceneExperiment& experiment_;
-  const SceneTrial& trial_;
+  const Experiment& experiment_;
+  const Trial& trial_;
   std::span<const std::unique_ptr<PlantMaker>> makers_;
   const SceneNumerics& numerics_;
   const SceneMember& member_;
@@ -163,7 +162,7 @@ class Parts {
 /// One variant of a trial while it runs, and what is noted of it.
 class MemberRun {
  public:
-  MemberRun(const SceneExperiment& experiment, const SceneTrial& trial,
+  MemberRun(const Experiment& experiment, const Trial& trial,
             std::span<const std::unique_ptr<PlantMaker>> makers,
             const simulation::ShapeFields& fields, const SceneNumerics& numerics,
             const SceneMember& member, int steps)
@@ -222,7 +221,7 @@ class MemberRun {
       slots_.push_back(loads.size());
       loads.push_back({at.element, at.back, Vec3::Zero(), Vec3::Zero()});
     }
-    for (const SceneMarker& marker : experiment_.markers) {
+    for (const Marker& marker : experiment_.markers) {
       plant::PlacedPoint& place = places_.emplace_back();
       if (marker.plant < 0) continue;
       if (marker.fruit < 0) {
@@ -282,7 +281,7 @@ class MemberRun {
             {t, "detached", simulation_->rods().model(p).fruits[event.fruit].name, ""});
   }
 
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   const SceneMember& member_;
   std::vector<robot::CarriedLinks> sensors_;  // of the experiment's wrenches
   std::optional<simulation::Simulation> simulation_;
@@ -296,7 +295,7 @@ class MemberRun {
 class Stepper {
  public:
   Stepper(const std::vector<std::unique_ptr<MemberRun>>& runs, const cosserat::RodSettings& rods,
-          const SceneExperiment& experiment, bool touching)
+          const Experiment& experiment, bool touching)
       : runs_(runs) {
     if (touching || !experiment.scene.ties.empty() || rods.solver != cosserat::SolverKind::direct)
       return;
@@ -335,7 +334,7 @@ JointPath::Point arm_at(const SceneMember& member, double t) {
   return point;
 }
 
-std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, const SceneTrial& trial,
+std::vector<SceneMotion> run_scene_trial(const Experiment& experiment, const Trial& trial,
                                          std::span<const std::unique_ptr<PlantMaker>> makers,
                                          const simulation::ShapeFields& fields,
                                          const SceneNumerics& numerics, double until,

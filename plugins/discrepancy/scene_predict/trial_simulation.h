@@ -70,7 +70,7 @@ struct SceneMember {
 /// Simulates variants of one trial side by side: each is a simulation::Simulation whose robot goes
 /// as `path` says. Coupling is one-way, unless joints give way. `makers`: one a plant of the
 /// experiment, built for the trial's poses. `fields`: of the robot.
-std::vector<SceneMotion> run_scene_trial(const SceneExperiment& experiment, const SceneTrial& trial,
+std::vector<SceneMotion> run_scene_trial(const Experiment& experiment, const Trial& trial,
                                          std::span<const std::unique_ptr<PlantMaker>> makers,
                                          const simulation::ShapeFields& fields,
                                          const SceneNumerics& numerics, double until,

@@ -25,7 +25,7 @@ constexpr double log_rate = 250.0;  // Hz
 
 class Writer {
  public:
-  Writer(const fs::path& folder, const SceneExperiment& experiment,
+  Writer(const fs::path& folder, const Experiment& experiment,
          const std::vector<plant::Effect>& effects)
       : folder_(folder), experiment_(experiment), effects_(effects), scene_(experiment.scene) {}
 
@@ -77,7 +77,7 @@ class Writer {
   }
 
   void set_plant(std::size_t p) {
-    const ScenePlantFile& own = experiment_.plants[p];
+    const ExperimentPlant& own = experiment_.plants[p];
     plant::PlantFile file = own.file;
     bool changed = false;
     for (const auto* list : {&experiment_.effects, &effects_})
@@ -104,7 +104,7 @@ class Writer {
   // The trial's own log, smoothed: what is off about it is among the effects.
   void follow(int trial) {
     if (trial < 0) return;
-    const SceneTrial& own = experiment_.trials[static_cast<std::size_t>(trial)];
+    const Trial& own = experiment_.trials[static_cast<std::size_t>(trial)];
     const Samples& log = own.follows_commands ? own.commands : own.joints;
     if (log.size() == 0) return;
     const std::vector<std::string> names = joint_names(experiment_.robot);
@@ -162,7 +162,7 @@ class Writer {
   }
 
   const fs::path& folder_;
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   const std::vector<plant::Effect>& effects_;
   world::Scene scene_;
   bool differs_ = false;
@@ -171,7 +171,7 @@ class Writer {
 
 }  // namespace
 
-ExtendedScene write_extended_scene(const fs::path& folder, const SceneExperiment& experiment,
+ExtendedScene write_extended_scene(const fs::path& folder, const Experiment& experiment,
                                    const std::vector<plant::Effect>& effects, int trial) {
   if (!experiment.scene.robot) return {};
   return Writer(folder, experiment, effects).run(trial);

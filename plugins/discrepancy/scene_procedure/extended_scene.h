@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 namespace pedicel::discrepancy {
 
@@ -18,7 +18,7 @@ struct ExtendedScene {
 /// The arm goes through the joints of `trial` as they were read, or gets its commands. What cameras
 /// do is left out.
 ExtendedScene write_extended_scene(const std::filesystem::path& folder,
-                                   const SceneExperiment& experiment,
+                                   const Experiment& experiment,
                                    const std::vector<plant::Effect>& effects, int trial);
 
 }  // namespace pedicel::discrepancy

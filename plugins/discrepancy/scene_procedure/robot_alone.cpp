@@ -46,29 +46,29 @@ Felt less(const Samples& measured, const Eigen::MatrixXd& own) {
 }
 
 /// The scene in which nothing is taken hold of.
-SceneExperiment without_events(const SceneExperiment& experiment) {
-  SceneExperiment own = experiment;
-  for (SceneTrial& trial : own.trials) trial.events.clear();
+Experiment without_events(const Experiment& experiment) {
+  Experiment own = experiment;
+  for (Trial& trial : own.trials) trial.events.clear();
   return own;
 }
 
 /// The scene with places along all curves as further markers of one trial, of one sample.
-SceneExperiment with_curves(const SceneExperiment& experiment, int trial, double time,
-                            int places_a_curve, std::vector<SceneMarker>& places) {
-  SceneExperiment own = experiment;
+Experiment with_curves(const Experiment& experiment, int trial, double time, int places_a_curve,
+                       std::vector<Marker>& places) {
+  Experiment own = experiment;
   own.trials = {experiment.trials[static_cast<std::size_t>(trial)]};
   own.markers.clear();
   for (std::size_t p = 0; p < experiment.plants.size(); ++p)
     for (const plant::PlantCurve& curve : experiment.plants[p].file.curves)
       for (int i = 0; i <= places_a_curve; ++i) {
-        SceneMarker marker;
+        Marker marker;
         marker.name = "place " + std::to_string(own.markers.size());
         marker.plant = static_cast<int>(p);
         marker.place = {curve.name, static_cast<double>(i) / places_a_curve, {}};
         own.markers.push_back(marker);
       }
   places = own.markers;
-  SceneTrial& one = own.trials.front();
+  Trial& one = own.trials.front();
   one.pixels.assign(one.pixels.size(), Samples{});
   one.markers.time = {time};
   one.markers.value = Eigen::MatrixXd::Constant(1, 3 * static_cast<long>(own.markers.size()),
@@ -105,7 +105,7 @@ class RobotAlone {
     Vec3 sum = Vec3::Zero();
     int count = 0;
     for (std::size_t t = 0; t < experiment_.trials.size(); ++t) {
-      const SceneTrial& trial = experiment_.trials[t];
+      const Trial& trial = experiment_.trials[t];
       const SceneReadings own = untouched(static_cast<int>(t)),
                           model = touched(static_cast<int>(t));
       if (!own.healthy || !model.healthy) continue;
@@ -130,7 +130,7 @@ class RobotAlone {
 
  private:
   void look_at(int t) {
-    const SceneTrial& trial = experiment_.trials[static_cast<std::size_t>(t)];
+    const Trial& trial = experiment_.trials[static_cast<std::size_t>(t)];
     const SceneReadings own = untouched(t);
     if (!own.healthy) return;
     for (std::size_t w = 0; w < trial.wrenches.size(); ++w) {
@@ -191,7 +191,7 @@ class RobotAlone {
     return push_between(felt, felt.time[best], felt.time[best + length - 1]);
   }
 
-  std::vector<Pose> links_at(const Arm& arm, const SceneTrial& trial, double time) const {
+  std::vector<Pose> links_at(const Arm& arm, const Trial& trial, double time) const {
     const JointPath path = path_of(experiment_, trial);
     SceneMember member;
     member.state = &state_;
@@ -209,7 +209,7 @@ class RobotAlone {
   }
 
   // Where one force would give the moment: nearest to what all samples of a firm push say.
-  std::optional<Vec3> place_of(const SceneTrial& trial, const Push& push, int link) const {
+  std::optional<Vec3> place_of(const Trial& trial, const Push& push, int link) const {
     if (trial.follows_commands) return std::nullopt;  // its links are not known beforehand
     const Arm arm(experiment_, state_);
     const std::vector<Pose> links = links_at(arm, trial, push.time);
@@ -218,7 +218,7 @@ class RobotAlone {
     return entry(arm, links, link, sensor.position + f.cross(m) / f.squaredNorm(), f.normalized());
   }
 
-  void tell_place(int t, const SceneTrial& trial, const Felt& felt, int link) {
+  void tell_place(int t, const Trial& trial, const Felt& felt, int link) {
     const std::optional<Push> push = firmest(felt);
     if (!push) return;
     const std::optional<Vec3> place = place_of(trial, *push, link);
@@ -251,9 +251,9 @@ class RobotAlone {
   }
 
   // The place on the stems of the fitted model, as they are bent then.
-  void tell_along(int t, const SceneTrial& trial, double time, const Vec3& place, double error) {
-    std::vector<SceneMarker> places;
-    const SceneExperiment own = with_curves(experiment_, t, time, how_.places, places);
+  void tell_along(int t, const Trial& trial, double time, const Vec3& place, double error) {
+    std::vector<Marker> places;
+    const Experiment own = with_curves(experiment_, t, time, how_.places, places);
     SceneSimulator simulator(own, simulator_.numerics(), 1);
     const SceneVariant variant{model_};
     const SceneSimulator::Request request{&variant, 0};
@@ -329,7 +329,7 @@ class RobotAlone {
 
   // What comes off lets the wrench jump while something is held. The force itself need not fall: a
   // tool may touch the stem again at once.
-  void tell_break(const SceneTrial& trial, const Felt& felt) {
+  void tell_break(const Trial& trial, const Felt& felt) {
     std::vector<Jump> jumps(felt.time.size());
     for (std::size_t i = 1; i < jumps.size(); ++i) jumps[i] = jump_at(felt, i);
     const double gap = longest_gap * sample_of(felt);
@@ -375,8 +375,8 @@ class RobotAlone {
 
   SceneSimulator& simulator_;
   const RobotAloneSettings& how_;
-  const SceneExperiment& experiment_;
-  SceneExperiment empty_;
+  const Experiment& experiment_;
+  Experiment empty_;
   SceneSimulator alone_;
   const std::vector<plant::Effect>& model_;
   double force_std_, moment_std_;

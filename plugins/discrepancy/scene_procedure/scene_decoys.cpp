@@ -43,7 +43,7 @@ class Exchange {
 
 }  // namespace
 
-Decoys scene_decoys(const SceneExperiment& experiment, const SceneDataSet& data,
+Decoys scene_decoys(const Experiment& experiment, const SceneDataSet& data,
                     std::span<const int> trials, std::span<const SceneReadings> without,
                     std::span<const SceneReadings> with, double too_alike) {
   long rows = 0;
@@ -52,7 +52,7 @@ Decoys scene_decoys(const SceneExperiment& experiment, const SceneDataSet& data,
   long first = 0;
   for (const int t : trials) {
     const auto at = static_cast<std::size_t>(t);
-    const SceneTrial& trial = experiment.trials[at];
+    const Trial& trial = experiment.trials[at];
     const long size = data.size(t);
     const Eigen::VectorXd own = residual_of(data, t, without[at]);
     const Eigen::VectorXd moved = own - residual_of(data, t, with[at]);

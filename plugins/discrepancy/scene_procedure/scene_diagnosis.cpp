@@ -22,7 +22,7 @@ bool healthy(const std::vector<SceneReadings>& readings) {
 
 class Procedure {
  public:
-  Procedure(const SceneExperiment& experiment, const SceneDiagnosisOptions& options)
+  Procedure(const Experiment& experiment, const SceneDiagnosisOptions& options)
       : experiment_(experiment),
         options_(options),
         data_(experiment),
@@ -300,7 +300,7 @@ class Procedure {
     if (options_.progress) options_.progress(what, share);
   }
 
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   const SceneDiagnosisOptions& options_;
   Clock::time_point begin_ = Clock::now();
   SceneDataSet data_;
@@ -313,7 +313,7 @@ class Procedure {
 
 }  // namespace
 
-void split_scene_trials(const SceneExperiment& experiment, const std::vector<double>& misfit,
+void split_scene_trials(const Experiment& experiment, const std::vector<double>& misfit,
                         std::vector<int>& fit, std::vector<int>& check) {
   bool stated = false;
   for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
@@ -334,8 +334,7 @@ void split_scene_trials(const SceneExperiment& experiment, const std::vector<dou
   std::erase(fit, order[1]);
 }
 
-SceneDiagnosis diagnose_scene(const SceneExperiment& experiment,
-                              const SceneDiagnosisOptions& options) {
+SceneDiagnosis diagnose_scene(const Experiment& experiment, const SceneDiagnosisOptions& options) {
   return Procedure(experiment, options).run();
 }
 

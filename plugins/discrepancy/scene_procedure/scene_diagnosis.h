@@ -40,11 +40,10 @@ struct SceneDiagnosis {
 
 /// Which trials are fitted and which held out: as the experiment says; where it says nothing, of
 /// three trials or more the one with the second largest misfit (`misfit`, by trial) is held out.
-void split_scene_trials(const SceneExperiment& experiment, const std::vector<double>& misfit,
+void split_scene_trials(const Experiment& experiment, const std::vector<double>& misfit,
                         std::vector<int>& fit, std::vector<int>& check);
 
 /// The whole procedure: noise of the predictions, baseline, causes, held-out trials, verdict.
-SceneDiagnosis diagnose_scene(const SceneExperiment& experiment,
-                              const SceneDiagnosisOptions& options);
+SceneDiagnosis diagnose_scene(const Experiment& experiment, const SceneDiagnosisOptions& options);
 
 }  // namespace pedicel::discrepancy

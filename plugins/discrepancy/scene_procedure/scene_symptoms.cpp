@@ -98,13 +98,13 @@ std::pair<double, double> touch(const Push& push, double least) {
 
 class Symptoms {
  public:
-  Symptoms(const SceneExperiment& experiment, const SceneDataSet& data,
+  Symptoms(const Experiment& experiment, const SceneDataSet& data,
            std::span<const SceneReadings> predicted, const SceneSymptomSettings& how)
       : experiment_(experiment), data_(data), predicted_(predicted), how_(how) {}
 
   std::vector<SymptomNumber> run() {
     for (std::size_t t = 0; t < experiment_.trials.size() && t < predicted_.size(); ++t) {
-      const SceneTrial& trial = experiment_.trials[t];
+      const Trial& trial = experiment_.trials[t];
       const SceneReadings& model = predicted_[t];
       // A simulation that broke down says nothing after that, and touches would be compared with
       // none.
@@ -145,7 +145,7 @@ class Symptoms {
   }
 
   // What a wrist feels is what the tool touches with, so all about contact is read from its wrench.
-  void contact(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
+  void contact(const Trial& trial, const Samples& samples, const Eigen::MatrixXd& model,
                std::size_t sensor) {
     // As stated, or as the samples scatter at rest.
     const double noise = data_.deviation(SceneChannel::force);
@@ -177,7 +177,7 @@ class Symptoms {
   }
 
   // The ratio while the push is firm, and when it leaves its first value: the contact slips.
-  void friction(const SceneTrial& trial, const Push& measured, const Push& told, double noise) {
+  void friction(const Trial& trial, const Push& measured, const Push& told, double noise) {
     const auto ratio = [&](const Push& push, double& error) {
       const double most = largest(push);
       double normal = 0.0, across = 0.0;
@@ -234,7 +234,7 @@ class Symptoms {
   }
 
   // Before anything moves: weight and the sensor's zero.
-  void rest(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
+  void rest(const Trial& trial, const Samples& samples, const Eigen::MatrixXd& model,
             std::size_t sensor) {
     Eigen::Matrix<double, 6, 1> off = Eigen::Matrix<double, 6, 1>::Zero();
     int count = 0;
@@ -268,7 +268,7 @@ class Symptoms {
   // The shift in time of a marker on the arm that takes most of its residual.
   // Markers on the arm and not on the plant: a plant answers late by itself, while an arm is where
   // its log says, but for its clock.
-  void lag(const SceneTrial& trial, const SceneReadings& model) {
+  void lag(const Trial& trial, const SceneReadings& model) {
     double top = 0.0, bottom = 0.0;
     for (std::size_t m = 0; m < experiment_.markers.size(); ++m) {
       if (experiment_.markers[m].plant >= 0 || trial.markers.size() < 3) continue;
@@ -299,7 +299,7 @@ class Symptoms {
   // Image residual as a small motion of the camera: two shifts, a turn and a scale.
   // In the image and not in space: which motion of a camera makes them is a question of the fit,
   // and not of what is seen.
-  void image(const SceneTrial& trial, const Samples& samples, const Eigen::MatrixXd& model,
+  void image(const Trial& trial, const Samples& samples, const Eigen::MatrixXd& model,
              const Camera& camera) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
@@ -336,7 +336,7 @@ class Symptoms {
   }
 
   // The mean offset of the plant's markers before anything moves.
-  void standing(const SceneTrial& trial, const SceneReadings& model) {
+  void standing(const Trial& trial, const SceneReadings& model) {
     Vec3 sum = Vec3::Zero();
     int count = 0;
     for (long r = 0; r < trial.markers.size() && trial.markers.time[static_cast<std::size_t>(r)] <
@@ -367,7 +367,7 @@ class Symptoms {
   }
 
   // When fruits came off, recorded less simulated.
-  void detachment(const SceneTrial& trial, const SceneReadings& model) {
+  void detachment(const Trial& trial, const SceneReadings& model) {
     for (const MeasuredEvent& event : trial.events) {
       if (event.event != "detached") continue;
       const auto told = std::ranges::find_if(model.events, [&](const MeasuredEvent& one) {
@@ -385,7 +385,7 @@ class Symptoms {
     }
   }
 
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   const SceneDataSet& data_;
   std::span<const SceneReadings> predicted_;
   const SceneSymptomSettings& how_;
@@ -394,8 +394,7 @@ class Symptoms {
 
 }  // namespace
 
-std::vector<SymptomNumber> scene_symptoms(const SceneExperiment& experiment,
-                                          const SceneDataSet& data,
+std::vector<SymptomNumber> scene_symptoms(const Experiment& experiment, const SceneDataSet& data,
                                           std::span<const SceneReadings> predicted,
                                           const SceneSymptomSettings& settings) {
   return Symptoms(experiment, data, predicted, settings).run();

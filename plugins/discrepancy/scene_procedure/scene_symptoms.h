@@ -13,8 +13,7 @@ namespace pedicel::discrepancy {
 /// and lets go, how much the contact rubs, how far the arm's log lags, how the camera's image has
 /// moved, what the wrench says at rest, and where the plant stands. The clearest of each kind
 /// first.
-std::vector<SymptomNumber> scene_symptoms(const SceneExperiment& experiment,
-                                          const SceneDataSet& data,
+std::vector<SymptomNumber> scene_symptoms(const Experiment& experiment, const SceneDataSet& data,
                                           std::span<const SceneReadings> predicted,
                                           const SceneSymptomSettings& settings);
 

@@ -414,7 +414,7 @@ class Conclusion {
   }
 
   SceneSimulator& simulator_;
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   const SceneDataSet& data_;
   const SceneSearchSettings& how_;
   SceneDiagnosis& d_;

@@ -54,7 +54,7 @@ NamedCause Findings::named(const Candidate& candidate, const FitSummary& fit, in
   const effects::EffectDefinition* known = effects::find_effect(cause.name);
   // What sits at the root has no place of its own in the model, but readers look for one.
   if (known && known->home == effects::Home::base)
-    cause.where = root_place(data->experiment().plant);
+    cause.where = root_place(data->experiment().plant());
   cause.words = effect.words;
   for (int p = 0; p < fit.hypothesis.size(); ++p) {
     const FreeParameter& free = fit.hypothesis.free[p];

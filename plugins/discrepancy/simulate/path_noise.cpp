@@ -73,7 +73,7 @@ PathNoise of_trial(const Still& still, const Trial& given, double std) {
 std::vector<PathNoise> path_noise(const Experiment& experiment) {
   std::vector<PathNoise> all(experiment.trials.size());
   if (!experiment.noise.path_std) return all;
-  const double distance = experiment.plant.distance;
+  const double distance = experiment.plant().distance;
   const PlantMaker maker(experiment, distance, usual_junction * distance);
   const Still still(maker, experiment);
   for (std::size_t t = 0; t < all.size(); ++t)

@@ -33,7 +33,7 @@ Scales scales_of(const plant::BuiltPlant& built, std::span<const TrialScales> tr
 
 Scales scales_of(const Experiment& experiment) {
   Diagnostics diagnostics;
-  const auto built = plant::build_plant(experiment.plant, {}, diagnostics);
+  const auto built = plant::build_plant(experiment.plant(), {}, diagnostics);
   if (!built) throw InvalidFile(diagnostics);
   std::vector<TrialScales> trials;
   trials.reserve(experiment.trials.size());

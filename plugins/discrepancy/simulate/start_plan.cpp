@@ -123,7 +123,7 @@ std::vector<StartPlan> plan_starts(const Experiment& experiment, double junction
   std::vector<StartPlan> starts(experiment.trials.size());
   const auto moves = [](const Trial& trial) { return trial.window.has_value(); };
   if (std::ranges::none_of(experiment.trials, moves)) return starts;
-  const double distance = experiment.plant.distance;
+  const double distance = experiment.plant().distance;
   const PlantMaker maker(experiment, distance, junction * distance);
   for (std::size_t t = 0; t < starts.size(); ++t)
     starts[t] = plan_start(maker, experiment, static_cast<int>(t));

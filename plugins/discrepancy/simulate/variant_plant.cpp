@@ -28,7 +28,7 @@ plant::BuildOptions with_junction(double junction) {
 }  // namespace
 
 PlantMaker::PlantMaker(const Experiment& experiment, double distance, double junction)
-    : PlantMaker(experiment.plant, distance, with_junction(junction)) {}
+    : PlantMaker(experiment.plant(), distance, with_junction(junction)) {}
 
 PlantMaker::PlantMaker(plant::PlantFile file, double distance, const plant::BuildOptions& options)
     : file_(std::move(file)) {

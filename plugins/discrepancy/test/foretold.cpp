@@ -41,7 +41,7 @@ std::optional<StaticStretch> last_swings(const SymptomContext& context, int t) {
   double way = 0.0;
   for (int m = 0; m < context.markers(); ++m) {
     const plant::CurvePlace& place = context.experiment.markers[m].place;
-    for (const plant::PlantCurve& curve : context.experiment.plant.curves)
+    for (const plant::PlantCurve& curve : context.experiment.plant().curves)
       if (curve.name == place.curve)
         way += (mean.segment<3>(3 * m).transpose() - drawn_point(curve, place.at)).squaredNorm();
   }
@@ -57,8 +57,8 @@ std::optional<Foretold> at_rest(const SymptomContext& context, const StaticStret
   for (int m = 0; m < context.markers(); ++m) {
     const plant::CurvePlace& place = context.experiment.markers[m].place;
     const auto curve =
-        std::ranges::find(context.experiment.plant.curves, place.curve, &plant::PlantCurve::name);
-    if (curve == context.experiment.plant.curves.end()) continue;
+        std::ranges::find(context.experiment.plant().curves, place.curve, &plant::PlantCurve::name);
+    if (curve == context.experiment.plant().curves.end()) continue;
     const Vec3 drawn = drawn_point(*curve, place.at);
     for (int axis = 0; axis < 3; ++axis) {
       const int c = 3 * m + axis;

@@ -23,7 +23,7 @@ bool seen(const StaticStretch& stretch, int marker) {
 
 Vec3 root_of(const SymptomContext& context, const StaticStretch& stretch) {
   const Trial& trial = context.trial(stretch.trial);
-  const Vec3& root = context.experiment.plant.root;
+  const Vec3& root = context.experiment.plant().root;
   // On a shaker the root goes along with its base.
   if (!trial.base) return root;
   const double t = trial.markers.time[stretch.from];
@@ -161,7 +161,7 @@ std::vector<ChainPoint> points_of(const SymptomContext& context, const MarkerCha
 void add_curvature(const SymptomContext& context, const MarkerChain& chain,
                    const StaticStretch& stretch, std::vector<Symptom>& out) {
   const std::vector<ChainPoint> p = points_of(context, chain, stretch);
-  const std::string& curve = context.experiment.plant.curves[chain.curve].name;
+  const std::string& curve = context.experiment.plant().curves[chain.curve].name;
   // Of residuals and not of places: the curvature of the plant itself drops out, and what is left
   // is where it bends otherwise than the model. A shift vanishes in it, and on a straight chain a
   // turn does, too.
@@ -231,7 +231,7 @@ void add_kink(const SymptomContext& context, const MarkerChain& chain, const Sta
   }
   const Vec3 error = (carrier.error.cwiseAbs2() + carried.error.cwiseAbs2()).cwiseSqrt();
   const Measured size = length_of(kink, error);
-  const std::string& name = context.experiment.plant.curves[chain.curve].name;
+  const std::string& name = context.experiment.plant().curves[chain.curve].name;
   const std::string where = stretch_name(context, stretch);
   Symptom symptom = make_symptom("junction_kink", name + " (" + where + ")", degrees * size.value,
                                  degrees * size.error);

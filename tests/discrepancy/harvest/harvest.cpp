@@ -8,8 +8,8 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/csv.h"
 #include "engine/io/yaml.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/scene/scene_effects.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "plugins/discrepancy/scene_predict/scene_observe.h"
 #include "plugins/discrepancy/scene_procedure/extended_scene.h"
@@ -20,31 +20,30 @@ namespace pedicel::harvest {
 
 namespace {
 
+using discrepancy::Experiment;
 using discrepancy::SceneDataSet;
-using discrepancy::SceneExperiment;
 using discrepancy::SceneReadings;
 using nlohmann::json;
 
 constexpr double least_to_gain = 1.05;  // noise units: below, a share of it is one of chances
 
-SceneExperiment read(const std::filesystem::path& folder, const std::filesystem::path& scene) {
+Experiment read(const std::filesystem::path& folder, const std::filesystem::path& scene) {
   Diagnostics diagnostics;
-  auto experiment = discrepancy::read_scene_experiment(folder, diagnostics, scene);
+  auto experiment = discrepancy::read_experiment(folder, diagnostics, {.scene = scene});
   if (!experiment) throw InvalidFile(diagnostics);
   return std::move(*experiment);
 }
 
 /// The experiment with further points of its plant that nothing measured, for the plant's shape.
-SceneExperiment with_points(SceneExperiment experiment,
-                            const std::vector<scene_case::Place>& points) {
+Experiment with_points(Experiment experiment, const std::vector<scene_case::Place>& points) {
   for (const auto& [curve, at] : points) {
-    discrepancy::SceneMarker marker;
+    discrepancy::Marker marker;
     marker.name = "point " + std::to_string(experiment.markers.size());
     marker.plant = 0;
     marker.place = {curve, at, {}};
     experiment.markers.push_back(std::move(marker));
   }
-  for (discrepancy::SceneTrial& trial : experiment.trials) {
+  for (discrepancy::Trial& trial : experiment.trials) {
     Eigen::MatrixXd& seen = trial.markers.value;
     const long more = 3 * static_cast<long>(points.size());
     seen.conservativeResize(Eigen::NoChange, seen.cols() + more);
@@ -65,7 +64,7 @@ std::string effect_text(const scene_case::Hidden& hidden) {
 }
 
 discrepancy::SceneVariant variant_of(const scene_case::Setting& setting,
-                                     const SceneExperiment& experiment) {
+                                     const Experiment& experiment) {
   discrepancy::SceneVariant variant;
   Diagnostics diagnostics;
   for (const scene_case::Hidden& hidden : setting.hidden)
@@ -88,7 +87,7 @@ std::size_t last_row(const std::vector<double>& time, const std::optional<double
   return static_cast<std::size_t>(std::max<long>(0, first_off - time.begin() - 1));
 }
 
-Course real_course(const scene_case::Run& run, const discrepancy::SceneTrial& trial) {
+Course real_course(const scene_case::Run& run, const discrepancy::Trial& trial) {
   Course course;
   course.came_off = run.came_off;
   const std::vector<double>& seen = trial.markers.time;
@@ -98,8 +97,8 @@ Course real_course(const scene_case::Run& run, const discrepancy::SceneTrial& tr
   return course;
 }
 
-Course course_of(const SceneReadings& readings, const discrepancy::SceneTrial& trial,
-                 const Course& real, std::size_t points) {
+Course course_of(const SceneReadings& readings, const discrepancy::Trial& trial, const Course& real,
+                 std::size_t points) {
   Course course;
   course.healthy = readings.healthy;
   for (const discrepancy::MeasuredEvent& event : readings.events)
@@ -124,7 +123,7 @@ Course course_of(const SceneReadings& readings, const discrepancy::SceneTrial& t
 
 class Foretelling {
  public:
-  Foretelling(const SceneExperiment& experiment, int threads)
+  Foretelling(const Experiment& experiment, int threads)
       : experiment_(experiment), data_(experiment), simulator_(experiment, {}, threads) {}
 
   /// By trial.
@@ -148,7 +147,7 @@ class Foretelling {
   }
 
  private:
-  const SceneExperiment& experiment_;
+  const Experiment& experiment_;
   SceneDataSet data_;
   discrepancy::SceneSimulator simulator_;
 };
@@ -177,7 +176,7 @@ scene_case::Setting setting_of(const Options& options) {
 
 Diagnosed diagnose(const std::filesystem::path& folder, const std::filesystem::path& out,
                    int threads) {
-  const SceneExperiment experiment = read(folder, {});
+  const Experiment experiment = read(folder, {});
   discrepancy::SceneDiagnosisOptions options;
   options.threads = threads;
   discrepancy::SceneDiagnosis found = diagnose_scene(experiment, options);
@@ -210,7 +209,7 @@ Comparison compare(const std::filesystem::path& folder, const std::filesystem::p
                    const scene_case::Setting& setting, const std::vector<scene_case::Run>& runs,
                    int threads) {
   const std::vector<scene_case::Place> points = scene_case::points_of(setting);
-  const SceneExperiment nominal = with_points(read(folder, {}), points);
+  const Experiment nominal = with_points(read(folder, {}), points);
   const std::vector<scene_case::Drive> drives = scene_case::drives_of(setting);
   Comparison out;
   out.setting = setting;
@@ -223,7 +222,7 @@ Comparison compare(const std::filesystem::path& folder, const std::filesystem::p
       files.courses(variant_of(setting, nominal), real, points.size());
   std::vector<Course> found;
   if (!extended.empty()) {
-    const SceneExperiment own = with_points(read(folder, extended), points);
+    const Experiment own = with_points(read(folder, extended), points);
     found = Foretelling(own, threads).courses({}, real, points.size());
   }
   for (std::size_t t = 0; t < runs.size(); ++t) {

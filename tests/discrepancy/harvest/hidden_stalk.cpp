@@ -5,7 +5,7 @@
 
 #include "engine/core/diagnostics.h"
 #include "engine/io/csv.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "plugins/discrepancy/scene_procedure/robot_alone.h"
 #include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
@@ -18,8 +18,8 @@ namespace pedicel::harvest {
 namespace {
 
 using discrepancy::Estimate;
+using discrepancy::Experiment;
 using discrepancy::SceneDiagnosis;
-using discrepancy::SceneExperiment;
 using discrepancy::SymptomNumber;
 using scene_case::Draw;
 using scene_case::Run;
@@ -28,9 +28,9 @@ using scene_case::Setting;
 constexpr double farthest = 0.012, softest = 0.75, weakest = 0.6;  // m, 1, 1
 constexpr double interval95 = 1.96;
 
-SceneExperiment read(const std::filesystem::path& folder) {
+Experiment read(const std::filesystem::path& folder) {
   Diagnostics diagnostics;
-  auto experiment = discrepancy::read_scene_experiment(folder, diagnostics);
+  auto experiment = discrepancy::read_experiment(folder, diagnostics);
   if (!experiment) throw InvalidFile(diagnostics);
   return std::move(*experiment);
 }
@@ -91,8 +91,7 @@ void look_at_modulus(StalkTold& stalk, const SceneDiagnosis& found) {
 }
 
 // By wrench and joints alone, with no model of the plant.
-void look_at_moments(StalkTold& stalk, const SceneExperiment& experiment,
-                     const std::vector<Run>& runs) {
+void look_at_moments(StalkTold& stalk, const Experiment& experiment, const std::vector<Run>& runs) {
   discrepancy::SceneSimulator simulator(experiment, {}, 1);
   const discrepancy::SceneDataSet data(experiment);
   const std::vector<scene_case::Drive> drives = drives_of(stalk.pulled);
@@ -178,7 +177,7 @@ StalkTold look_at_stalk(const std::filesystem::path& folder, std::uint64_t seed,
   stalk.pulled = pulled_stalk(seed);
   const std::vector<Run> pushes = make_case(folder / "pushes", stalk.pushed);
   const std::vector<Run> pulls = make_case(folder / "pulls", stalk.pulled);
-  const SceneExperiment experiment = read(folder / "pushes");
+  const Experiment experiment = read(folder / "pushes");
   discrepancy::SceneDiagnosisOptions options;
   options.threads = threads;
   const SceneDiagnosis found = diagnose_scene(experiment, options);

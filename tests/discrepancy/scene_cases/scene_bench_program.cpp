@@ -11,6 +11,7 @@
 #include "engine/core/stop.h"
 #include "engine/core/thread_pool.h"
 #include "engine/io/atomic_file.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "tests/discrepancy/scene_cases/scored_case.h"
 
 namespace {

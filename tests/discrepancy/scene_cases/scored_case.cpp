@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "engine/io/csv.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "tests/discrepancy/score_table.h"
 
 namespace pedicel::scene_case {
@@ -114,7 +114,7 @@ SceneScore run_case(const Order& order, std::uint64_t seed, const std::filesyste
     if (order.kind == "outside" && std::ranges::none_of(outside, &Outside::acts))
       throw std::logic_error("what is outside acts in no trial, so there is nothing to find");
     Diagnostics diagnostics;
-    const auto experiment = discrepancy::read_scene_experiment(folder, diagnostics);
+    const auto experiment = discrepancy::read_experiment(folder, diagnostics);
     if (!experiment) throw InvalidFile(diagnostics);
     discrepancy::SceneDiagnosisOptions options;
     options.threads = threads;

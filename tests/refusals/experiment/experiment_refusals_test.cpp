@@ -7,6 +7,7 @@
 
 #include "engine/io/atomic_file.h"
 #include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pedicel::discrepancy {

@@ -12,6 +12,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/csv.h"
 #include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/discrepancy/beam_experiment.h"
 #include "tests/unit/import/c3d_file.h"

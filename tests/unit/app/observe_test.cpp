@@ -9,6 +9,7 @@
 #include "engine/core/check.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/csv.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/discrepancy/beam_experiment.h"
 

@@ -11,8 +11,8 @@ namespace pedicel::app {
 namespace {
 
 using discrepancy::ArmAtStem;
+using discrepancy::Experiment;
 using discrepancy::Samples;
-using discrepancy::SceneExperiment;
 
 constexpr double dt = 1.0e-3;  // s, of the scene
 constexpr int steps = 1100;
@@ -69,10 +69,10 @@ class RunAndTrial : public testing::Test {
   }
 
   /// The same scene as an experiment that is a log of that run.
-  SceneExperiment experiment(const Recorded& recorded) const {
-    SceneExperiment made = at_.read();
+  Experiment experiment(const Recorded& recorded) const {
+    Experiment made = at_.read();
     made.is_run = true;
-    discrepancy::SceneTrial& trial = made.trials.front();
+    discrepancy::Trial& trial = made.trials.front();
     const auto table = [](long columns) {
       Samples samples;
       for (int k = 0; k <= steps; ++k) samples.time.push_back(dt * k);
@@ -93,7 +93,7 @@ class RunAndTrial : public testing::Test {
   void expect_the_same(double tolerance) {
     const Recorded ran = run();
     EXPECT_GT(*std::ranges::max_element(ran.touching), 0.05) << "the finger must push the stem";
-    const SceneExperiment made = experiment(ran);
+    const Experiment made = experiment(ran);
     const discrepancy::SceneReadings found = discrepancy::readings_of(made);
     ASSERT_TRUE(found.healthy);
     for (int k = 0; k <= steps; k += 25)

@@ -11,7 +11,7 @@ namespace pedicel::app {
 namespace {
 
 using discrepancy::ArmAtStem;
-using discrepancy::SceneExperiment;
+using discrepancy::Experiment;
 
 // What a run of the scene must do: with the same effects the diagnosis' own model says the same of
 // its instruments.
@@ -61,7 +61,7 @@ class RunOfScene : public testing::Test {
   Said predicted(const std::string& effects, double until) {
     at_.scene_more.clear();
     at_.write_all();
-    const SceneExperiment experiment = at_.read();
+    const Experiment experiment = at_.read();
     const discrepancy::SceneReadings all = discrepancy::readings_of(
         experiment, effects.empty() ? std::vector<std::string>{} : std::vector{effects},
         {0.05, 1.0e-3, 0.0, 2.0e-4});

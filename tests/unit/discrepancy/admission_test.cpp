@@ -18,9 +18,9 @@ using ::testing::HasSubstr;
 // With a material and a mesh, without which the plant cannot be built.
 MadeData noisy() {
   MadeData made;
-  made.experiment.plant.material = {5.0e8, 0.3, 800.0, 0.01};
-  made.experiment.plant.connect = 0.01;
-  made.experiment.plant.distance = 0.05;
+  made.experiment.plant().material = {5.0e8, 0.3, 800.0, 0.01};
+  made.experiment.plant().connect = 0.01;
+  made.experiment.plant().distance = 0.05;
   // The weights act from the start: a plant does not jump from one sample to the next.
   Eigen::MatrixXd& weights = made.experiment.trials[1].markers.value;
   weights.rowwise() = Eigen::RowVectorXd(weights.bottomRows(1));

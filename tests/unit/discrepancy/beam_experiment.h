@@ -60,7 +60,7 @@ inline Samples empty_samples(double duration, double step, int columns) {
 /// One trial without gravity and drives, markers at 0.5 and 1, a force that is measured.
 inline Experiment experiment_of(const Beam& beam, double duration, double step = 0.01) {
   Experiment experiment;
-  experiment.plant = plant_of(beam);
+  experiment.plant() = plant_of(beam);
   experiment.markers = {{"middle", on_stem(0.5)}, {"tip", on_stem(1.0)}};
   Trial trial;
   trial.name = "one";

@@ -25,7 +25,7 @@ struct BentStem {
     Beam beam;
     beam.damping_time = 0.01;
     experiment = experiment_of(beam, 2.5, 0.02);
-    experiment.plant.distance = 0.04;
+    experiment.plant().distance = 0.04;
     experiment.markers.clear();
     for (const double at : {0.2, 0.4, 0.6, 0.8, 1.0})
       experiment.markers.push_back({"m" + std::to_string(at), on_stem(at)});
@@ -42,7 +42,7 @@ struct BentStem {
     }
   }
 
-  double stem_length() const { return drawn_length(experiment.plant.curves.front()); }
+  double stem_length() const { return drawn_length(experiment.plant().curves.front()); }
 
   /// Measures what a stem with `forces` would do, with white noise on top.
   void measure(std::vector<PointForce> forces, std::uint64_t seed) {

@@ -79,7 +79,7 @@ TEST(CoarseModel, IsNoCoarserThanTheNoiseAllows) {
 // times: a weak stretch may be shorter than such a segment.
 TEST(CoarseModel, IsNoCoarserThanTwiceTheFilesMesh) {
   Fitted fitted(5.0e-3);
-  const double most = 2.0 * fitted.experiment.plant.distance;
+  const double most = 2.0 * fitted.experiment.plant().distance;
   ASSERT_EQ(fitted.setup.numerics().distance, most);
   CoarseModel coarse(fitted.setup, fitted.model);
   EXPECT_EQ(coarse.numerics().distance, most);

@@ -379,7 +379,7 @@ TEST(Conclusion, AParameterWithinWhatIsKnownIsADetail) {
   c.diagnosis.before.raised = false;
   c.diagnosis.ranking.clear();
   c.diagnosis.base.cost = 0.5 * c.findings.samples();
-  c.made.experiment.plant.material.known_to.youngs_modulus = 0.25;
+  c.made.experiment.plant().material.known_to.youngs_modulus = 0.25;
   const Verdict v = c.concluded();
   EXPECT_EQ(v.outcome, Outcome::adequate);
   EXPECT_THAT(v.causes, ::testing::IsEmpty());
@@ -615,7 +615,7 @@ TEST(Conclusion, TellsTheRatioThatAloneIsSeen) {
 
 TEST(Conclusion, ReportsTheMaterialInItsOwnUnits) {
   Case c;
-  c.diagnosis.admission.experiment.plant.material.youngs_modulus = 2.0e8;
+  c.diagnosis.admission.experiment.plant().material.youngs_modulus = 2.0e8;
   c.diagnosis.best = c.diagnosis.base;
   c.diagnosis.best.cost = 0.5 * c.findings.samples();
   report_parameters(c.findings, c.diagnosis);

@@ -547,7 +547,7 @@ const Hidden hidden_effects[] = {
 // the first trial's gravity has it, a path or a marker of the second would be 0.2 m off.
 TEST(HonestTrials, APlantMayBeTurnedBetweenTrials) {
   Experiment experiment = laboratory::day();
-  experiment.plant.material.youngs_modulus = 5e7;
+  experiment.plant().material.youngs_modulus = 5e7;
   // On the branches alone: a marker beside the path would say how far the plant is aside.
   experiment.markers.erase(experiment.markers.begin(), experiment.markers.begin() + 5);
   experiment.trials.clear();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/asset_folder.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/fit/causes.h"
 #include "plugins/discrepancy/simulate/scales.h"
 #include "plugins/discrepancy/simulate/variant_plant.h"
@@ -43,7 +44,7 @@ Experiment full_experiment() {
   fruit.place = on_stem(1.0);
   fruit.radius = 0.01;
   fruit.density = 900.0;
-  experiment.plant.fruits = {fruit};
+  experiment.plant().fruits = {fruit};
   trial.events = {{0.11, "detached", "fruit_1"}};
   Trial still = trial;
   still.name = "two";
@@ -156,8 +157,8 @@ TEST(Experiment, FindsTheLeavesOfItsPlantAndTakesThemAlong) {
   leaf.place = on_stem(0.8);
   leaf.leaf_template = "own";
   leaf.size = 0.05;
-  experiment.plant.leaves = {leaf};
-  experiment.plant.leaf_folders = {folder / "leaves"};
+  experiment.plant().leaves = {leaf};
+  experiment.plant().leaf_folders = {folder / "leaves"};
   write_experiment(folder / "x", experiment);
   std::filesystem::remove_all(folder / "leaves");
 

@@ -6,7 +6,8 @@
 
 #include "engine/io/atomic_file.h"
 #include "plugins/discrepancy/data/experiment.h"
-#include "plugins/discrepancy/data/experiment_keys.h"
+#include "plugins/discrepancy/files/experiment_files.h"
+#include "plugins/discrepancy/files/experiment_lists.h"
 #include "plugins/discrepancy/select/verdict.h"
 #include "plugins/discrepancy/select/verdict_keys.h"
 #include "tests/support/described_keys.h"

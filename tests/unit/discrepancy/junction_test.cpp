@@ -14,10 +14,10 @@ using testing::Beam;
 Experiment branched(int branches) {
   Experiment experiment = testing::experiment_of({}, 0.1);
   for (int b = 0; b < branches; ++b) {
-    plant::PlantCurve branch = experiment.plant.curves[0];
+    plant::PlantCurve branch = experiment.plant().curves[0];
     branch.name = "branch" + std::to_string(b);
     branch.points = {Vec3(0, 0, 0.12 + 0.12 * b), Vec3(0.1, 0, 0.12 + 0.12 * b)};
-    experiment.plant.curves.push_back(branch);
+    experiment.plant().curves.push_back(branch);
   }
   return experiment;
 }
@@ -34,7 +34,7 @@ bool by_convention(const std::vector<Give>& found) {
   fit.hypothesis = junction_nuisance(experiment, {});
   fit.standard_error.resize(fit.hypothesis.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const double half = experiment.plant.distance / (2.0 * beam.stiffness());
+    const double half = experiment.plant().distance / (2.0 * beam.stiffness());
     fit.hypothesis.set_value(static_cast<int>(i), 1.0 / (found[i].share * half));
     fit.standard_error[i] = found[i].error / found[i].share;  // of its logarithm
   }

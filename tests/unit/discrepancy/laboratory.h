@@ -118,7 +118,7 @@ inline Experiment measured(const std::vector<plant::Effect>& hidden = {}) {
   Experiment experiment;
   experiment.title = "a day in a laboratory";
   experiment.folder = "day";
-  experiment.plant = plant_file();
+  experiment.plant() = plant_file();
   const auto mark = [&](const std::string& curve, std::initializer_list<double> places) {
     for (const double at : places)
       experiment.markers.push_back(

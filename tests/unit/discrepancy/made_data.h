@@ -21,9 +21,9 @@ struct MadeData {
 
   MadeData() {
     experiment.title = "made";
-    experiment.plant.name = "stem & branch";
-    experiment.plant.curves = {curve("stem", {0, 0, 0}, {0, 0, 0.6}),
-                               curve("branch", {0, 0, 0.3}, {0.2, 0, 0.4})};
+    experiment.plant().name = "stem & branch";
+    experiment.plant().curves = {curve("stem", {0, 0, 0}, {0, 0, 0.6}),
+                                 curve("branch", {0, 0, 0.3}, {0.2, 0, 0.4})};
     for (const double at : {0.25, 0.5, 0.75, 1.0})
       experiment.markers.push_back(
           {"m" + std::to_string(experiment.markers.size() + 1), {"stem", at, {}}});
@@ -36,7 +36,7 @@ struct MadeData {
 
   Vec3 drawn(int marker) const {
     const plant::CurvePlace& place = experiment.markers[marker].place;
-    const plant::PlantCurve& c = experiment.plant.curves[place.curve == "stem" ? 0 : 1];
+    const plant::PlantCurve& c = experiment.plant().curves[place.curve == "stem" ? 0 : 1];
     return c.points.front() + place.at * (c.points.back() - c.points.front());
   }
 

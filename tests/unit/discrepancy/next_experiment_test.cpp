@@ -11,7 +11,7 @@ namespace {
 // A plant that the simulator can run quickly.
 MadeData coarse() {
   MadeData made;
-  plant::PlantFile& plant = made.experiment.plant;
+  plant::PlantFile& plant = made.experiment.plant();
   plant.shape = plant::Shape::rest;
   plant.material = {5e8, 0.35, 700.0, 0.01};
   plant.connect = 0.01;
@@ -58,10 +58,10 @@ TEST(TrialDesigns, StayWithinWhatWasDone) {
 // Twice by 180 degrees is not at all; heights and distances stay.
 TEST(TrialDesigns, TurnedPlant) {
   const MadeData made = coarse();
-  const plant::PlantFile once = turned_plant(made.experiment.plant);
+  const plant::PlantFile once = turned_plant(made.experiment.plant());
   EXPECT_NEAR(once.curves[1].points[1].x(), -0.2, 1e-12);
   EXPECT_NEAR(once.curves[1].points[1].z(), 0.4, 1e-12);
-  EXPECT_EQ(turned_plant(once), made.experiment.plant);
+  EXPECT_EQ(turned_plant(once), made.experiment.plant());
 }
 
 // Damping shows where the plant swings freely, after a release or a sudden load, and not in a push

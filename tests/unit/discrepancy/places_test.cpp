@@ -24,7 +24,7 @@ TEST(Places, MarkersInTheirOrderFromTheFoot) {
 // Curves drawn from the tip are read from the foot all the same.
 TEST(Places, CurvesDrawnTowardsTheRoot) {
   MadeData made;
-  for (plant::PlantCurve& curve : made.experiment.plant.curves)
+  for (plant::PlantCurve& curve : made.experiment.plant().curves)
     std::swap(curve.points[0], curve.points[1]);
   const auto chains = chains_of(made.experiment);
   EXPECT_TRUE(chains[0].rooted);

@@ -149,11 +149,11 @@ TEST(Shares, PutWhatMattersFirst) {
 // The plant file may say that the modulus is known to no better than that.
 TEST(Shares, KeepAParameterWithinWhatIsKnownOutOfTheCauses) {
   Pulled pulled({testing::effect("youngs_modulus", "factor", {0.9}), hidden_offset(3.0e-3)});
-  pulled.experiment.plant.material.known_to.youngs_modulus = 0.2;
+  pulled.experiment.plant().material.known_to.youngs_modulus = 0.2;
   pulled.find_offset();
   tell_shares(pulled.evaluator, pulled.findings, pulled.options, pulled.diagnosis);
   EXPECT_THAT(names(pulled.diagnosis.verdict.causes), ElementsAre("marker_offset"));
-  pulled.experiment.plant.material.known_to.youngs_modulus = 0.05;
+  pulled.experiment.plant().material.known_to.youngs_modulus = 0.05;
   pulled.find_offset();
   tell_shares(pulled.evaluator, pulled.findings, pulled.options, pulled.diagnosis);
   EXPECT_THAT(names(pulled.diagnosis.verdict.causes),

@@ -56,10 +56,10 @@ TEST(Simulator, ABranchTurnsWithItsJunction) {
   const Beam beam;
   Experiment experiment = loaded(-1.0, 1.0);
   experiment.trials[0].loads[0].force *= 0.1;
-  plant::PlantCurve branch = experiment.plant.curves[0];
+  plant::PlantCurve branch = experiment.plant().curves[0];
   branch.name = "branch";
   branch.points = {Vec3(0, 0, 0.2), Vec3(0.1, 0, 0.2)};
-  experiment.plant.curves.push_back(branch);
+  experiment.plant().curves.push_back(branch);
   experiment.markers = {{"foot", {"branch", 0.0, {}}}, {"end", {"branch", 1.0, {}}}};
   const double turn = 0.001 * 0.2 * (2.0 * beam.length - 0.2) / (2.0 * beam.stiffness());
   const auto found = [&](double junction) {
@@ -134,7 +134,7 @@ TEST(Simulator, ASlowBaseCarriesThePlant) {
     base.rotation.push_back(Quat(Eigen::AngleAxisd(0.1 * ramp, Vec3::UnitZ())));
   }
   experiment.trials[0].base = base;
-  experiment.plant.material.damping_time = 0.02;
+  experiment.plant().material.damping_time = 0.02;
   const Prediction found = predict(experiment);
   EXPECT_LT((found.markers.row(0).tail<3>() - Eigen::RowVector3d(1.0, 0.2, 0.5)).norm(), 1e-9);
   for (int s = 0; s <= 20; ++s) {
@@ -179,7 +179,7 @@ TEST(Simulator, WhatStartsHungHadRelaxedBeforeTheTrialsMasses) {
   EXPECT_NEAR(tip() / (weight / (1.0 - fraction)), 1.0, 5e-3);
   experiment.trials[0].masses = {{on_stem(1.0), mass}};
   EXPECT_NEAR(tip() / (weight / (1.0 - fraction) + hung), 1.0, 5e-3);
-  experiment.plant.masses = std::move(experiment.trials[0].masses);
+  experiment.plant().masses = std::move(experiment.trials[0].masses);
   experiment.trials[0].masses.clear();
   EXPECT_NEAR(tip() / ((weight + hung) / (1.0 - fraction)), 1.0, 5e-3);
 }
@@ -232,14 +232,14 @@ TEST(Simulator, WhatCannotBeSimulatedIsRefused) {
 // rest it would come off at once; where it was recorded, it does so then and not before.
 TEST(Simulator, FruitsComeOffWhenItWasRecorded) {
   Experiment experiment = experiment_of({}, 0.5);
-  experiment.plant.curves[0].points = {Vec3(0, 0, 0), Vec3(0.4, 0, 0)};
+  experiment.plant().curves[0].points = {Vec3(0, 0, 0), Vec3(0.4, 0, 0)};
   plant::PlantFruit fruit;
   fruit.name = "fruit";
   fruit.place = on_stem(1.0);
   fruit.radius = 0.013;
   fruit.density = 0.01 / (4.0 / 3.0 * M_PI * std::pow(fruit.radius, 3));
   fruit.detach.force = 0.05;
-  experiment.plant.fruits = {fruit};
+  experiment.plant().fruits = {fruit};
   experiment.trials[0].gravity = Vec3(0, 0, -9.81);
   const Prediction by_threshold = predict(experiment);
   ASSERT_EQ(by_threshold.events.size(), 1u);
@@ -266,7 +266,7 @@ TEST(Simulator, FruitsComeOffWhenItWasRecorded) {
 // asked for again, shorter first.
 TEST(Simulator, AnswersDoNotDependOnWhatElseIsAsked) {
   Experiment experiment = experiment_of({}, 0.3);
-  experiment.plant.material.damping_time = 0.01;
+  experiment.plant().material.damping_time = 0.01;
   Hold hold{on_stem(0.73), testing::resting_at(Vec3(0.02, 0, 0.29)), 0.107, 80.0};
   experiment.trials[0].holds = {hold};
   experiment.trials.push_back(experiment.trials[0]);

@@ -46,7 +46,7 @@ double fall(const Experiment& experiment) {
 
 Experiment damped() {
   Experiment experiment = experiment_of({}, 0.5, 0.013);
-  experiment.plant.material.damping_time = 0.01;
+  experiment.plant().material.damping_time = 0.01;
   return experiment;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "engine/io/yaml.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/scene/scene_effects.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_predict/scene_simulator.h"
 #include "tests/support/temporary_folder.h"
 
@@ -99,9 +99,9 @@ class ArmAtStem {
   }
 
   /// Reads what write_all() wrote. The diagnostics' text as an error.
-  SceneExperiment read() const {
+  Experiment read() const {
     Diagnostics diagnostics;
-    auto experiment = read_scene_experiment(path(), diagnostics);
+    auto experiment = read_experiment(path(), diagnostics);
     if (!experiment) throw InvalidFile(diagnostics);
     return std::move(*experiment);
   }
@@ -123,7 +123,7 @@ class ArmAtStem {
   TemporaryFolder folder_;
 };
 
-inline plant::Effect scene_effect(const std::string& text, const SceneExperiment& experiment) {
+inline plant::Effect scene_effect(const std::string& text, const Experiment& experiment) {
   Diagnostics diagnostics;
   plant::Effect effect = read_scene_effect(io::parse_yaml(text, "effect", diagnostics), experiment);
   if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
@@ -131,7 +131,7 @@ inline plant::Effect scene_effect(const std::string& text, const SceneExperiment
 }
 
 /// What the instruments of the only trial say of a variant.
-inline SceneReadings readings_of(const SceneExperiment& experiment,
+inline SceneReadings readings_of(const Experiment& experiment,
                                  const std::vector<std::string>& effects = {},
                                  SceneNumerics numerics = {0.02, 1.0e-3, 0.05, 1.0e-5}) {
   SceneVariant variant;

@@ -1,6 +1,7 @@
 // What data of a robot at a plant could not show.
 #include <gtest/gtest.h>
 
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "tests/unit/discrepancy_scene/diagnosed_scene.h"
 
 namespace pedicel::discrepancy {

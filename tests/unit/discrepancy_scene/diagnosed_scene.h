@@ -22,7 +22,7 @@ class DiagnosedScene : public testing::Test {
                           const std::vector<SceneForce>& forces = {}) {
     at_.write_all();
     for (const auto& [name, text] : more_) at_.write(name, text);
-    const SceneExperiment plain = at_.read();
+    const Experiment plain = at_.read();
     SceneVariant variant;
     for (const std::string& text : hidden) variant.effects.push_back(scene_effect(text, plain));
     variant.forces = forces;
@@ -53,7 +53,7 @@ class DiagnosedScene : public testing::Test {
   std::map<std::string, std::string> more_;  // files in place of those of `at_`
   SceneNumerics numerics_;
   SceneSettings settings_;
-  SceneExperiment made_;
+  Experiment made_;
   bool stops_ = false;  // as soon as the search has begun
   std::atomic<bool> stop_ = false;
   int cut_ = 0;

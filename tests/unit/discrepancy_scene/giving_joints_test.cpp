@@ -17,7 +17,7 @@ class GivingArmAtStem : public testing::Test {
 };
 
 TEST_F(GivingArmAtStem, SwingsAsItsInertiaSaysAndComesToRestAtTorqueOverStiffness) {
-  const SceneExperiment experiment = at_.read();
+  const Experiment experiment = at_.read();
   SceneState state = nominal_state(experiment);
   state.joint_stiffness = 20.0;
   state.joint_damping_time = 0.004;
@@ -46,7 +46,7 @@ TEST_F(GivingArmAtStem, SwingsAsItsInertiaSaysAndComesToRestAtTorqueOverStiffnes
 }
 
 TEST_F(GivingArmAtStem, RigidJointsDoNotMove) {
-  const SceneExperiment experiment = at_.read();
+  const Experiment experiment = at_.read();
   const SceneState state = nominal_state(experiment);
   const Arm arm(experiment, state);
   GivingJoints joints(arm, state, 1.0e-3);
@@ -57,9 +57,9 @@ TEST_F(GivingArmAtStem, RigidJointsDoNotMove) {
 }
 
 TEST_F(GivingArmAtStem, SamplesCountLessWherePredictionsPart) {
-  SceneExperiment experiment = at_.read();
+  Experiment experiment = at_.read();
   const SceneReadings told = readings_of(experiment);
-  SceneTrial& trial = experiment.trials.front();
+  Trial& trial = experiment.trials.front();
   trial.markers.value = told.markers;
   SceneDataSet data(experiment);
   SceneReadings off = told, other = told;

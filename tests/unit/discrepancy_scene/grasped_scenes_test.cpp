@@ -44,7 +44,7 @@ TEST_F(GraspedFruit, ComesOffWhereTheWrenchAloneSaysSo) {
 TEST(RobotAlone, APushThatGrowsIsNoBreak) {
   const ArmAtStem at;
   at.write_all();
-  SceneExperiment made = observed_scene(at.read(), {}, {});
+  Experiment made = observed_scene(at.read(), {}, {});
   const SceneDataSet data(made);
   const Samples all = made.trials.front().wrenches.front();
   for (const long every : {1, 8}) {

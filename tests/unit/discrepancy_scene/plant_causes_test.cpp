@@ -17,7 +17,7 @@ using testing::Not;
 
 class PlantCauses : public DiagnosedScene {
  protected:
-  SceneExperiment read() {
+  Experiment read() {
     at_.write_all();
     for (const auto& [name, text] : more_) at_.write(name, text);
     return at_.read();
@@ -86,7 +86,7 @@ TEST_F(PlantCauses, SayWhichPlantWhereThereAreSeveralAndLeaveOutTheOneOutOfReach
 
 // Beside what the model has already.
 TEST_F(PlantCauses, AreLeftOutWhereTheyCannotBeSimulated) {
-  const SceneExperiment plain = read();
+  const Experiment plain = read();
   const plant::Effect yields = scene_effect("{name: yield, curvature: 2}", plain);
   EXPECT_THAT(names(plant_starts(plain, {})), Contains("asymmetry"));
   EXPECT_THAT(names(plant_starts(plain, {yields})), Not(Contains("asymmetry")));

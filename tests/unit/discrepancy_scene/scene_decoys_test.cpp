@@ -14,7 +14,7 @@ class SceneDecoys : public testing::Test {
   SceneDecoys() {
     at_.write_all();
     experiment_ = at_.read();
-    const SceneTrial& trial = experiment_.trials.front();
+    const Trial& trial = experiment_.trials.front();
     without_.markers = Eigen::MatrixXd::Zero(trial.markers.size(), trial.markers.value.cols());
     for (const Samples& pixels : trial.pixels)
       without_.pixels.push_back(Eigen::MatrixXd::Zero(pixels.size(), pixels.value.cols()));
@@ -35,7 +35,7 @@ class SceneDecoys : public testing::Test {
                         Evidence{}.too_alike);
   }
   ArmAtStem at_;
-  SceneExperiment experiment_;
+  Experiment experiment_;
   SceneReadings without_, with_;
 };
 

@@ -17,9 +17,9 @@ class SceneDefinitions : public testing::TestWithParam<std::string> {
  protected:
   const SceneEffectDefinition& definition() const { return *find_scene_effect(GetParam()); }
 
-  static SceneExperiment experiment(const ArmAtStem& at) {
+  static Experiment experiment(const ArmAtStem& at) {
     at.write_all();
-    SceneExperiment read = at.read();
+    Experiment read = at.read();
     // A trial that shows what only arms with commands and fruits that come off show.
     read.trials.front().follows_commands = true;
     read.trials.front().events.push_back({0.5, "detached", "apple", "finger"});
@@ -116,7 +116,7 @@ TEST_P(SceneDefinitions, SayAllThatOthersAskFor) {
 
 TEST_P(SceneDefinitions, OfNoSizeDoNothing) {
   const ArmAtStem at;
-  const SceneExperiment read = experiment(at);
+  const Experiment read = experiment(at);
   const SceneState nominal = nominal_state(read);
   SceneState state = nominal;
   plant::Effect effect = without_size(definition(), nominal);
@@ -133,7 +133,7 @@ TEST_P(SceneDefinitions, OfNoSizeDoNothing) {
 
 TEST_P(SceneDefinitions, StartWithNumbersThatTheyHave) {
   const ArmAtStem at;
-  const SceneExperiment read = experiment(at);
+  const Experiment read = experiment(at);
   ASSERT_TRUE(definition().starts);
   const std::vector<SceneFit> starts = starts_of(definition(), {read});
   ASSERT_FALSE(starts.empty());
@@ -161,13 +161,13 @@ TEST_P(SceneDefinitions, AreInTheBaselineWhereNothingShowsThem) {
   EXPECT_TRUE(definition().find(own.parameter)) << own.parameter;
   EXPECT_FALSE(own.because.empty());
   const ArmAtStem plain;
-  SceneExperiment seen = experiment(plain);
+  Experiment seen = experiment(plain);
   seen.trials.front().markers.value.setZero();
   EXPECT_TRUE(own.fits({seen}).empty());
   ArmAtStem at;
   at.instruments = "wrenches:\n  - {name: wrist, link: finger}\n";
   at.sees_nothing = true;
-  const SceneExperiment blind = experiment(at);
+  const Experiment blind = experiment(at);
   const std::vector<SceneFit> fits = baseline_effects({blind});
   ASSERT_EQ(fits.size(), blind.plants.size());
   for (const effects::FreeParameter& free : fits.front().free) {

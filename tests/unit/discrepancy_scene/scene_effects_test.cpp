@@ -15,7 +15,7 @@ constexpr int tip = 0, middle = 3, nail = 6;  // columns of the markers
 class SceneEffects : public testing::Test {
  protected:
   // Far from the stem: nothing is touched.
-  SceneExperiment& free() {
+  Experiment& free() {
     if (!free_) {
       at_.gap = "0.5";
       at_.write_all();
@@ -24,7 +24,7 @@ class SceneEffects : public testing::Test {
     return *free_;
   }
   // The finger pushes the stem.
-  SceneExperiment& pushing() {
+  Experiment& pushing() {
     if (!pushing_) {
       at_.write_all();
       pushing_ = at_.read();
@@ -32,7 +32,7 @@ class SceneEffects : public testing::Test {
     return *pushing_;
   }
   ArmAtStem at_;
-  std::optional<SceneExperiment> free_, pushing_;
+  std::optional<Experiment> free_, pushing_;
 };
 
 Vec3 point(const Eigen::MatrixXd& rows, long row, int column) {
@@ -240,7 +240,7 @@ TEST_F(SceneEffects, ReactionTurnsTheJointByTorqueOverStiffness) {
 
 TEST_F(SceneEffects, ThePayloadsWeightIsTheMotorsToo) {
   // The joint's axis leans by gravity's turn: it carries the payload 0.4 m out.
-  SceneExperiment lying = free();
+  Experiment lying = free();
   lying.scene.gravity = {0, -g, 0};
   const SceneReadings plain = readings_of(lying),
                       laden = readings_of(lying, {"{name: payload, mass: 0.1}"});
@@ -252,7 +252,7 @@ TEST_F(SceneEffects, WhatIsGraspedGoesWhereTheLinkGoes) {
   at_.write_all();
   at_.write("push/events.csv",
             "time,event,what,by\n0.05,grasped,stem,finger\n1.05,released,stem,finger\n");
-  const SceneExperiment held = at_.read();
+  const Experiment held = at_.read();
   const SceneReadings all = readings_of(held);
   // In the middle of the motion, at 4 mm/s, the link feels the stem's bending and stretch and no
   // more: what held it a step behind would pull with 4 N.

@@ -1,12 +1,10 @@
-#include "plugins/discrepancy/scene/scene_experiment.h"
-
 #include <gmock/gmock.h>
 
 #include "engine/core/check.h"
 #include "engine/io/text_file.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_keys.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_writer.h"
+#include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/files/experiment_files.h"
+#include "plugins/discrepancy/files/experiment_lists.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "plugins/discrepancy/scene_predict/scene_observe.h"
 #include "tests/support/described_keys.h"
@@ -22,7 +20,7 @@ class SceneExperimentFiles : public testing::Test {
   // What is said of a folder in which one thing was changed.
   std::string fault() {
     Diagnostics diagnostics;
-    const auto experiment = read_scene_experiment(at_.path(), diagnostics);
+    const auto experiment = read_experiment(at_.path(), diagnostics);
     EXPECT_NE(experiment.has_value(), diagnostics.has_errors());
     return diagnostics.text();
   }
@@ -39,8 +37,7 @@ class SceneExperimentFiles : public testing::Test {
 
 TEST_F(SceneExperimentFiles, AWholeFolderIsRead) {
   at_.write_all();
-  EXPECT_TRUE(is_scene_experiment(at_.path()));
-  const SceneExperiment experiment = at_.read();
+  const Experiment experiment = at_.read();
   EXPECT_EQ(experiment.markers.size(), 3u);
   EXPECT_EQ(experiment.markers[1].plant, 0);
   EXPECT_EQ(experiment.markers[2].link, experiment.robot.link("finger"));
@@ -58,7 +55,7 @@ TEST_F(SceneExperimentFiles, EyeTargetAndFieldOfViewAreACamera) {
               "  - {name: left, eye: [0.4, -1, 0.3], target: [0.4, 0, 0.3], fov: 0.7, size: "
               "[1280, 720]}");
   at_.write("experiment.yaml", all);
-  const SceneExperiment experiment = at_.read();
+  const Experiment experiment = at_.read();
   const Camera& camera = experiment.cameras[0];
   EXPECT_NEAR(camera.focal.x(), 360.0 / std::tan(0.35), 1e-9);
   EXPECT_LT((camera.X_WC.rotation * Vec3::UnitZ() - Vec3::UnitY()).norm(), 1e-12);
@@ -98,11 +95,11 @@ TEST_F(SceneExperimentFiles, EveryKeyThatIsDescribedIsRead) {
                             {"follows", {"trials: [{robot: {%}}]"}},
                             {"mass", {"trials: [{masses: [{%}]}]"}},
                             {"moved", {"trials: [{plants: {bush: {%}}}]"}}};
-  expect_every_key_is_read(scene_experiment_keys(), places,
+  expect_every_key_is_read(experiment_keys(), places,
                            [&](const std::string&, const std::string& text) {
                              at_.write("experiment.yaml", at_.head + text);
                              Diagnostics diagnostics;
-                             read_scene_experiment(at_.path(), diagnostics);
+                             read_experiment(at_.path(), diagnostics);
                              return diagnostics.text();
                            });
 }
@@ -132,7 +129,7 @@ TEST_F(SceneExperimentFiles, ATableMayHaveSomeColumnsInOtherUnits) {
   at_.write_all();
   at_.write("push/markers.csv", "time,tip.y (mm),tip.x (mm)\n0,30,400\n0.5,,401\n");
   at_.write("push/joints.csv", "time (ms),turn (deg)\n0,0\n1200,18\n");
-  const SceneExperiment experiment = at_.read();
+  const Experiment experiment = at_.read();
   const Samples& markers = experiment.trials[0].markers;
   EXPECT_DOUBLE_EQ(markers.value(0, 0), 0.4);
   EXPECT_DOUBLE_EQ(markers.value(0, 1), 0.03);
@@ -147,11 +144,11 @@ TEST_F(SceneExperimentFiles, WhatIsObservedIsReadBackAndFitsItsOwnModel) {
   SceneObserveOptions options;
   options.numerics.dt = 2.0e-3;
   options.numerics.distance = 0.02;
-  const SceneExperiment made = observed_scene(at_.read(), {}, options);
+  const Experiment made = observed_scene(at_.read(), {}, options);
   const TemporaryFolder out;
-  write_scene_experiment(out / "made", made);
+  write_experiment(out / "made", made);
   Diagnostics diagnostics;
-  const auto back = read_scene_experiment(out / "made", diagnostics);
+  const auto back = read_experiment(out / "made", diagnostics);
   ASSERT_TRUE(back) << diagnostics.text();
   EXPECT_LT((back->trials[0].markers.value - made.trials[0].markers.value).norm(), 1e-12);
   EXPECT_EQ(back->trials[0].joints.size(), 121);
@@ -180,24 +177,24 @@ TEST_F(SceneExperimentFiles, ASceneDeepInItsFolderIsWrittenWithWhatItNames) {
             "format: pedicel-experiment\nversion: 1\nscene: model/scenes/scene.yaml\n" +
                 at_.instruments + at_.trials);
   const TemporaryFolder out;
-  write_scene_experiment(out / "made", at_.read());
+  write_experiment(out / "made", at_.read());
   Diagnostics diagnostics;
-  EXPECT_TRUE(read_scene_experiment(out / "made", diagnostics)) << diagnostics.text();
+  EXPECT_TRUE(read_experiment(out / "made", diagnostics)) << diagnostics.text();
   // A scene from elsewhere is carried along with its folders.
   const auto shipped =
-      read_scene_experiment(at_.path(), diagnostics, at_.path() / "model/scenes/scene.yaml");
+      read_experiment(at_.path(), diagnostics, {.scene = at_.path() / "model/scenes/scene.yaml"});
   ASSERT_TRUE(shipped) << diagnostics.text();
-  write_scene_experiment(out / "other", *shipped);
-  EXPECT_TRUE(read_scene_experiment(out / "other", diagnostics)) << diagnostics.text();
+  write_experiment(out / "other", *shipped);
+  EXPECT_TRUE(read_experiment(out / "other", diagnostics)) << diagnostics.text();
   EXPECT_TRUE(std::filesystem::exists(out / "other/model/scenes/scene.yaml"));
   // Nothing is written outside of the folder.
-  SceneExperiment outside = *shipped;
+  Experiment outside = *shipped;
   outside.scene.file = at_.path() / "scene.yaml";
   outside.robot = {};
   outside.scene.robot->file = at_.path() / "arm.urdf";
   outside.plants.front().path = at_.path() / "plant.yaml";
   outside.scene_path = "../scene.yaml";
-  EXPECT_THROW(write_scene_experiment(out / "third", outside), UsageError);
+  EXPECT_THROW(write_experiment(out / "third", outside), UsageError);
 }
 
 }  // namespace

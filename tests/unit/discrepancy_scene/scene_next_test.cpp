@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "engine/core/check.h"
+#include "plugins/discrepancy/data/more_trials.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/report/scene_next_report.h"
-#include "plugins/discrepancy/scene_files/more_scene_trials.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
 #include "plugins/discrepancy/scene_next/arm_way.h"
 #include "plugins/discrepancy/scene_next/motion_designs.h"
 #include "tests/unit/discrepancy_scene/diagnosed_scene.h"
@@ -41,7 +41,7 @@ std::vector<std::string> actions(const std::vector<MotionDesign>& designs) {
 
 class MotionDesigns : public testing::Test {
  protected:
-  SceneExperiment experiment(const std::string& urdf) {
+  Experiment experiment(const std::string& urdf) {
     at_.write_all();
     at_.write("arm.urdf", urdf);
     return at_.read();
@@ -50,7 +50,7 @@ class MotionDesigns : public testing::Test {
 };
 
 TEST_F(MotionDesigns, AreMadeFromATrialAndMeasureNothing) {
-  const SceneExperiment plain = experiment(with_wrist());
+  const Experiment plain = experiment(with_wrist());
   const std::vector<MotionDesign> designs = motion_designs(plain, 0);
   EXPECT_GE(designs.size(), 9u);
   for (const char* part :
@@ -58,7 +58,7 @@ TEST_F(MotionDesigns, AreMadeFromATrialAndMeasureNothing) {
         "begin with wrist turned", "then turn wrist", "touch nothing"})
     EXPECT_THAT(actions(designs), Contains(HasSubstr(part)));
   for (const MotionDesign& one : designs) {
-    const SceneTrial& trial = one.trial;
+    const Trial& trial = one.trial;
     EXPECT_EQ(trial.joint_columns, (std::vector{0, 1})) << one.action;
     EXPECT_TRUE(trial.joints.value.allFinite()) << one.action;
     ASSERT_EQ(trial.wrenches.size(), 1u);
@@ -69,7 +69,7 @@ TEST_F(MotionDesigns, AreMadeFromATrialAndMeasureNothing) {
 
 TEST_F(MotionDesigns, KeepLimitsAndSpeeds) {
   // The swing's own speed is 0.28 rad/s.
-  const SceneExperiment slow = experiment(with_wrist("0.4"));
+  const Experiment slow = experiment(with_wrist("0.4"));
   const std::vector<MotionDesign> designs = motion_designs(slow, 0);
   EXPECT_THAT(actions(designs), Each(testing::Not(HasSubstr("twice the speed"))));
   EXPECT_THAT(actions(designs), Contains(HasSubstr("half the speed")));
@@ -90,8 +90,8 @@ TEST_F(MotionDesigns, KeepLimitsAndSpeeds) {
 TEST_F(MotionDesigns, KeepOffTheGround) {
   // A finger 0.8 m long and turned by 90 degrees would be fine; upright its half goes below.
   at_.scene_more = "ground: {height: 0.15}\n";
-  const SceneExperiment plain = experiment(with_wrist());
-  const SceneTrial& trial = plain.trials.front();
+  const Experiment plain = experiment(with_wrist());
+  const Trial& trial = plain.trials.front();
   const ArmWay way = measured_way(plain, trial);
   const WayCheck check(plain, trial, way);
   EXPECT_TRUE(check.allows(way));
@@ -99,7 +99,7 @@ TEST_F(MotionDesigns, KeepOffTheGround) {
   low.q.assign(3, Eigen::Vector2d(0.0, 0.0));
   EXPECT_TRUE(check.allows(low)) << "0.2 m above zero, 0.05 above the ground";
   // The box is 0.08 m wide: turned by 0.4 rad its corner is lower than upright.
-  SceneExperiment higher = plain;
+  Experiment higher = plain;
   higher.scene.ground->height = 0.199;
   const WayCheck tight(higher, trial, way);
   EXPECT_TRUE(tight.allows(way)) << "where it was measured";
@@ -109,8 +109,8 @@ TEST_F(MotionDesigns, KeepOffTheGround) {
 }
 
 TEST_F(MotionDesigns, StayOffThePlantWhereTheyTouchNothing) {
-  const SceneExperiment plain = experiment(with_wrist());
-  const SceneTrial& trial = plain.trials.front();
+  const Experiment plain = experiment(with_wrist());
+  const Trial& trial = plain.trials.front();
   const WayCheck check(plain, trial, measured_way(plain, trial));
   // Half of the finger's 12 mm and the stem's radius from its 30 mm.
   EXPECT_NEAR(check.clearance(Eigen::Vector2d(0.0, 0.0)), 0.030 - 0.006 - 0.004, 1.0e-4);
@@ -125,7 +125,7 @@ class SceneNextMotion : public DiagnosedScene {
  protected:
   SceneNextMotion() { more_["arm.urdf"] = with_wrist(); }
 
-  SceneDiagnosis again(const SceneExperiment& experiment) {
+  SceneDiagnosis again(const Experiment& experiment) {
     SceneDiagnosisOptions options;
     options.numerics = numerics_;
     options.settings.search.mesh = numerics_.distance;
@@ -133,19 +133,19 @@ class SceneNextMotion : public DiagnosedScene {
     return diagnose_scene(experiment, options);
   }
   /// The motion that was asked for, done with something hidden, as files.
-  SceneExperiment answer(const std::filesystem::path& plan, const SceneNext& next,
-                         const std::string& hidden) {
+  Experiment answer(const std::filesystem::path& plan, const SceneNext& next,
+                    const std::string& hidden) {
     Diagnostics diagnostics;
-    const auto like = read_scene_experiment(plan, diagnostics);
+    const auto like = read_experiment(plan, diagnostics);
     if (!like) throw InvalidFile(diagnostics);
     SceneVariant variant;
     variant.effects = {scene_effect(hidden, *like)};
     SceneObserveOptions how;
     how.numerics = numerics_;
     how.seed = 7;
-    SceneExperiment told = *like;
+    Experiment told = *like;
     told.noise = next.noise;
-    SceneExperiment made = observed_scene(told, variant, how);
+    Experiment made = observed_scene(told, variant, how);
     made.folder = plan;
     return made;
   }
@@ -169,9 +169,9 @@ TEST_F(SceneNextMotion, ALoadAndASensorsZeroAreToldApartByAWrist) {
       EXPECT_TRUE(std::filesystem::exists(out / ("next/next_1/predicted_" + name + "/" + file)))
           << name << " " << file;
   EXPECT_TRUE(std::filesystem::exists(out / "next/next_1/predictions.svg"));
-  const SceneExperiment made = answer(out / "next", found.next, load);
+  const Experiment made = answer(out / "next", found.next, load);
   EXPECT_TRUE(made.trials[0].wrenches[0].value.allFinite());
-  SceneExperiment both = made_;
+  Experiment both = made_;
   add_trials(made, both);
   ASSERT_EQ(both.trials.size(), 2u);
   const SceneDiagnosis last = again(both);
@@ -189,9 +189,9 @@ TEST_F(SceneNextMotion, WhatIsClearAsksForNothing) {
 }
 
 TEST_F(MotionDesigns, LaterTrialsMustBeOfTheSamePlace) {
-  const SceneExperiment first = experiment(with_wrist());
-  const auto refusal = [&](const SceneExperiment& more) -> std::string {
-    SceneExperiment both = first;
+  const Experiment first = experiment(with_wrist());
+  const auto refusal = [&](const Experiment& more) -> std::string {
+    Experiment both = first;
     try {
       add_trials(more, both);
     } catch (const UsageError& fault) {
@@ -200,12 +200,12 @@ TEST_F(MotionDesigns, LaterTrialsMustBeOfTheSamePlace) {
     return "";
   };
   EXPECT_THAT(refusal(first), HasSubstr("trial \"push\" is there already"));
-  SceneExperiment more = first;
+  Experiment more = first;
   more.trials[0].name = "again";
   EXPECT_EQ(refusal(more), "");
   std::swap(more.markers[0], more.markers[1]);
   EXPECT_EQ(refusal(more), "");
-  SceneExperiment both = first;
+  Experiment both = first;
   more.trials[0].markers.value.leftCols(3).setConstant(1.0);
   add_trials(more, both);
   EXPECT_EQ(both.trials[1].markers.value(0, 3), 1.0) << "of the second marker before";

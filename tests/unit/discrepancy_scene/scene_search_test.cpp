@@ -15,7 +15,7 @@ class SceneSearch : public testing::Test {
  protected:
   SceneFindings search(const std::vector<std::string>& hidden) {
     at_.write_all();
-    const SceneExperiment plain = at_.read();
+    const Experiment plain = at_.read();
     SceneVariant variant;
     for (const std::string& text : hidden) variant.effects.push_back(scene_effect(text, plain));
     SceneObserveOptions how;
@@ -32,9 +32,9 @@ class SceneSearch : public testing::Test {
     return search_scene(evaluator, options);
   }
   ArmAtStem at_;
-  SceneExperiment made_;
+  Experiment made_;
   SceneSettings settings_;
-  std::function<void(SceneExperiment&)> spoil_;  // what was measured
+  std::function<void(Experiment&)> spoil_;  // what was measured
 };
 
 double value_of(const SceneFitResult& fit, const std::string& effect, const std::string& number) {
@@ -56,7 +56,7 @@ TEST_F(SceneSearch, NothingIsFoundWhereNothingIsHidden) {
 TEST_F(SceneSearch, ATrialHeldOutMayObject) {
   at_.trials += "  - {name: again, folder: push, robot: {follows: joints}}\n";
   EXPECT_EQ(search({}).outcome, SceneFindings::Outcome::adequate);
-  spoil_ = [](SceneExperiment& made) { made.trials[1].wrenches[0].value *= 1.3; };
+  spoil_ = [](Experiment& made) { made.trials[1].wrenches[0].value *= 1.3; };
   EXPECT_EQ(search({}).outcome, SceneFindings::Outcome::unknown);
 }
 
@@ -102,7 +102,7 @@ TEST_F(SceneSearch, ALoadIsToldFromABiasThatPullsDown) {
 
 // Noise that nobody states is estimated, and is no finding.
 TEST_F(SceneSearch, NoiseThatIsNotStatedIsEstimated) {
-  spoil_ = [](SceneExperiment& made) { made.noise = {}; };
+  spoil_ = [](Experiment& made) { made.noise = {}; };
   const SceneFindings found = search({});
   EXPECT_EQ(found.outcome, SceneFindings::Outcome::adequate);
   EXPECT_LT(found.nominal_excess, 0.35);

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/verbs/import_log.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/scene_procedure/scene_diagnosis.h"
 #include "tests/unit/logs/logged_run.h"
 
@@ -37,7 +37,7 @@ class DiagnosedLog : public ::testing::Test {
     a.quiet = true;
     EXPECT_EQ(import_verb(a), 0);
     Diagnostics diagnostics;
-    const auto experiment = discrepancy::read_scene_experiment(a.out, diagnostics);
+    const auto experiment = discrepancy::read_experiment(a.out, diagnostics);
     if (!experiment) throw InvalidFile(diagnostics);
     discrepancy::SceneDiagnosisOptions options;
     options.threads = 2;

@@ -8,7 +8,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/mcap/writer.h"
 #include "engine/ros_messages/cdr.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
+#include "plugins/discrepancy/files/experiment_files.h"
 #include "plugins/discrepancy/scene_predict/scene_data.h"
 #include "tests/unit/logs/logged_run.h"
 
@@ -19,11 +19,11 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-discrepancy::SceneExperiment experiment_of(const std::filesystem::path& folder) {
+discrepancy::Experiment experiment_of(const std::filesystem::path& folder) {
   Diagnostics diagnostics;
-  auto read = discrepancy::read_scene_experiment(folder, diagnostics);
+  auto read = discrepancy::read_experiment(folder, diagnostics);
   EXPECT_TRUE(read) << diagnostics.text();
-  return read.value_or(discrepancy::SceneExperiment{});
+  return read.value_or(discrepancy::Experiment{});
 }
 
 ImportArguments arguments(const LoggedRun& run) {
@@ -46,9 +46,9 @@ TEST(LogImport, AProposedMapMakesAnExperimentOfARun) {
             HasSubstr("commands: {topic: \"/joint_commands\"}\n"),
             HasSubstr("{name: stem, frame: \"bush/stem\", plant: bush, curve: stem, at: 1}"),
             HasSubstr("{name: wrist, topic: \"/wrist/wrench\", link: arm, tared: false}")));
-  const discrepancy::SceneExperiment experiment = experiment_of(a.out);
+  const discrepancy::Experiment experiment = experiment_of(a.out);
   ASSERT_EQ(experiment.trials.size(), 1U);
-  const discrepancy::SceneTrial& trial = experiment.trials.front();
+  const discrepancy::Trial& trial = experiment.trials.front();
   EXPECT_EQ(trial.name, "run");
   EXPECT_EQ(trial.joints.size(), 1201);
   EXPECT_EQ(trial.joints.time.front(), 0.0);
@@ -74,7 +74,7 @@ TEST(LogImport, TheModelSaysWhatTheRunDid) {
   const LoggedRun run;
   const ImportArguments a = arguments(run);
   ASSERT_EQ(import_verb(a), 0);
-  const discrepancy::SceneExperiment experiment = experiment_of(a.out);
+  const discrepancy::Experiment experiment = experiment_of(a.out);
   const discrepancy::SceneReadings readings = discrepancy::readings_of(experiment);
   const discrepancy::Samples& seen = experiment.trials.front().markers;
   double farthest = 0.0, way = 0.0;
@@ -106,10 +106,10 @@ trials:
   - {log: run.mcap, name: late, from: 0.5, to: 1.0, use: check, clock: 3}
 )");
   ASSERT_EQ(import_verb(a), 0);
-  const discrepancy::SceneExperiment experiment = experiment_of(a.out);
+  const discrepancy::Experiment experiment = experiment_of(a.out);
   EXPECT_EQ(experiment.title, "the second half");
   EXPECT_EQ(experiment.noise.position_std, 0.0005);
-  const discrepancy::SceneTrial& trial = experiment.trials.front();
+  const discrepancy::Trial& trial = experiment.trials.front();
   EXPECT_EQ(trial.name, "late");
   EXPECT_EQ(trial.clock, 3.0);
   EXPECT_EQ(trial.use, discrepancy::Trial::Use::check);
@@ -260,8 +260,8 @@ markers:
                               "sensor_msgs/msg/JointState; left out"),
                     HasSubstr("/arm/joint_states: 1 messages with other joints"),
                     HasSubstr("/events: 1 texts are no events")));
-  const discrepancy::SceneExperiment experiment = experiment_of(a.out);
-  const discrepancy::SceneTrial& trial = experiment.trials.front();
+  const discrepancy::Experiment experiment = experiment_of(a.out);
+  const discrepancy::Trial& trial = experiment.trials.front();
   EXPECT_EQ(trial.joints.size(), 20);
   EXPECT_NEAR(trial.joints.time.back(), 0.2, 1e-6);
   EXPECT_NEAR(trial.joints.value(19, 0), 0.1, 1e-12);
@@ -338,7 +338,7 @@ TEST(LogImport, FramesWhoseTimesGoBackAreLeftOutAndCounted) {
               AllOf(HasSubstr("/tf: 20 places of frames whose times go back; left out"),
                     HasSubstr("/joint_states: 21 messages with other joints, without values or not "
                               "in the order of time; left out")));
-  const discrepancy::SceneExperiment experiment = experiment_of(a.out);
+  const discrepancy::Experiment experiment = experiment_of(a.out);
   ASSERT_EQ(experiment.trials.size(), 1U);
   const discrepancy::Samples& markers = experiment.trials.front().markers;
   ASSERT_EQ(markers.size(), 21);

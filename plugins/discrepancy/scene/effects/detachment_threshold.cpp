@@ -17,13 +17,13 @@ SceneEffectDefinition define_detachment_threshold() {
   };
   d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
     // One that is grasped and stays on says something, too.
-    const bool recorded = std::ranges::any_of(c.experiment.trials, [](const SceneTrial& trial) {
+    const bool recorded = std::ranges::any_of(c.experiment.trials, [](const Trial& trial) {
       return std::ranges::any_of(trial.events, [](const MeasuredEvent& e) {
         return e.event == "detached" || e.event == "grasped";
       });
     });
     const bool fruits = std::ranges::any_of(
-        c.experiment.plants, [](const ScenePlantFile& p) { return !p.file.fruits.empty(); });
+        c.experiment.plants, [](const ExperimentPlant& p) { return !p.file.fruits.empty(); });
     if (!recorded || !fruits) return {};
     std::vector<effects::Start> starts;
     // Where nothing comes off in the model, or everything at once, it has no slope.

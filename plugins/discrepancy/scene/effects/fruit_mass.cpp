@@ -16,7 +16,7 @@ SceneEffectDefinition define_fruit_mass() {
     t.each_plant([&](SceneState::Plant& plant) { plant.fruit_mass *= t.number("factor"); });
   };
   d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
-    if (std::ranges::none_of(c.experiment.plants, [](const ScenePlantFile& plant) {
+    if (std::ranges::none_of(c.experiment.plants, [](const ExperimentPlant& plant) {
           return !plant.file.fruits.empty();
         }))
       return {};

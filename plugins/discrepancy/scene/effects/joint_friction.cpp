@@ -43,7 +43,7 @@ SceneEffectDefinition define_joint_friction() {
     }
   };
   d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
-    const bool shows = std::ranges::any_of(c.experiment.trials, [](const SceneTrial& trial) {
+    const bool shows = std::ranges::any_of(c.experiment.trials, [](const Trial& trial) {
       return trial.torques.size() > 0 || trial.follows_commands;
     });
     if (!shows) return {};

@@ -38,7 +38,7 @@ SceneEffectDefinition define_payload() {
   d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
     if (c.experiment.wrenches.empty() &&
         std::ranges::none_of(c.experiment.trials,
-                             [](const SceneTrial& trial) { return trial.torques.size() > 0; }))
+                             [](const Trial& trial) { return trial.torques.size() > 0; }))
       return {};
     // Where it sits shows by mass times lever alone: begun with a tenth of its mass, it would be
     // put ten times as far away.

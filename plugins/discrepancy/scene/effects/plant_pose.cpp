@@ -5,7 +5,7 @@ namespace pedicel::discrepancy {
 namespace {
 
 // Of an upright thing the yaw about its root is not seen, and its prior keeps it.
-SceneFit unseen_place(const SceneStartContext& context, const ScenePlantFile& plant) {
+SceneFit unseen_place(const SceneStartContext& context, const ExperimentPlant& plant) {
   constexpr double way = 2.0e-3, turn = 0.02;  // m, rad: of a unit step
   effects::Start start("plant_pose");
   if (context.experiment.plants.size() > 1) start.word("plant", plant.name);
@@ -31,10 +31,10 @@ InBaseline where_nothing_shows_it() {
   own.without_slope = 2;
   own.because =
       "nothing shows where the plant stands but what it does to the arm, and that puts it there";
-  own.told = [](const SceneExperiment& experiment, const plant::Effect& effect, int component) {
+  own.told = [](const Experiment& experiment, const plant::Effect& effect, int component) {
     const auto named = effect.words.find("plant");
     const int at = named == effect.words.end() ? 0 : experiment.plant_index(named->second);
-    const ScenePlantFile& plant = experiment.plants[static_cast<std::size_t>(at)];
+    const ExperimentPlant& plant = experiment.plants[static_cast<std::size_t>(at)];
     // Where its root is, since that is what a ruler finds.
     return InBaseline::Told{plant.name + "_root_" + "xyz"[component],
                             (plant.pose * plant.file.root)[component]};
@@ -80,7 +80,7 @@ SceneEffectDefinition define_plant_pose() {
   };
   d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
     std::vector<effects::Start> starts;
-    for (const ScenePlantFile& plant : c.experiment.plants) {
+    for (const ExperimentPlant& plant : c.experiment.plants) {
       effects::Start start("plant_pose");
       if (c.experiment.plants.size() > 1) start.word("plant", plant.name);
       constexpr double turn = 0.01;  // rad, of a unit step

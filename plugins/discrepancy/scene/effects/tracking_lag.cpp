@@ -21,7 +21,7 @@ SceneEffectDefinition define_tracking_lag() {
   d.apply = [](const SceneEffectTarget& t) { t.state.tracking_lag += t.number("time"); };
   d.starts = [](const SceneStartContext& c) -> std::vector<effects::Start> {
     if (std::ranges::none_of(c.experiment.trials,
-                             [](const SceneTrial& trial) { return trial.follows_commands; }))
+                             [](const Trial& trial) { return trial.follows_commands; }))
       return {};
     return {effects::Start("tracking_lag").signed_number("time", 0.02, 0.02, 0.0, 2.0)};
   };

@@ -1,19 +1,19 @@
-#include "plugins/discrepancy/scene_files/scene_experiment_reader.h"
-
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "engine/core/joined.h"
 #include "engine/io/csv.h"
 #include "engine/io/described_map.h"
-#include "engine/robot/kinematics.h"
 #include "engine/world/scene_reader.h"
 #include "engine/world/settings.h"
+#include "plugins/discrepancy/data/experiment_tables.h"
+#include "plugins/discrepancy/files/drive_reader.h"
+#include "plugins/discrepancy/files/experiment_files.h"
+#include "plugins/discrepancy/files/experiment_lists.h"
 #include "plugins/discrepancy/scene/camera.h"
 #include "plugins/discrepancy/scene/run_effects.h"
 #include "plugins/discrepancy/scene/scene_effects.h"
-#include "plugins/discrepancy/scene_files/scene_experiment_keys.h"
-#include "plugins/discrepancy/scene_files/scene_tables.h"
+#include "plugins/effects/registry/effect_definition.h"
 #include "plugins/plant/effect_reader.h"
 #include "plugins/simulation/robot_control.h"
 #include "plugins/simulation/scene_plants.h"
@@ -23,13 +23,9 @@ namespace pedicel::discrepancy {
 namespace {
 
 using io::DescribedMap;
-using io::KeyType;
-using io::Told;
 using io::YamlNode;
 
-/// Rows of all tables of a trial, so that no folder fills the memory.
-constexpr int most_trials = 1000;
-constexpr std::size_t most_markers = 1000, most_cameras = 100, most_wrenches = 100;
+constexpr int least_in_window = 3;    // rows
 constexpr double same_time = 1.0e-9;  // s
 
 template <class Items>
@@ -41,303 +37,80 @@ int index_of(const Items& items, const std::string& name) {
 
 template <class Items>
 std::string names_of(const Items& items) {
-  std::string names;
-  for (const auto& item : items) names += (names.empty() ? "" : ", ") + item.name;
-  return names.empty() ? "none" : names;
+  if (items.empty()) return "none";
+  return joined(items, [](const auto& item) -> const std::string& { return item.name; });
 }
 
-const io::KeyList& experiment_list() {
-  const Told none{"none"};
-  static const io::KeyList keys{
-      "experiment",
-      "an experiment",
-      {{.name = "format",
-        .type = KeyType::word,
-        .words = {"pedicel-experiment"},
-        .sentence = "says what the file is"},
-       {.name = "version",
-        .type = KeyType::whole,
-        .bounds = {1, 1},
-        .sentence = "version of the format"},
-       {.name = "title",
-        .type = KeyType::text,
-        .otherwise = none,
-        .sentence = "what it is, for people"},
-       {.name = "scene",
-        .type = KeyType::path,
-        .sentence = "the nominal scene, in place of `plant`"},
-       {.name = "source",
-        .type = KeyType::word,
-        .otherwise = Told{"measured"},
-        .words = {"measured", "run"},
-        .sentence =
-            "`run`: a log of a run of the scene by this program, whose step, mesh and contact "
-            "are the run's"},
-       {.name = "markers",
-        .type = KeyType::list,
-        .otherwise = none,
-        .form = "at most " + std::to_string(most_markers),
-        .sentence = "measured points of plants and of the robot"},
-       {.name = "cameras",
-        .type = KeyType::list,
-        .otherwise = none,
-        .form = "at most " + std::to_string(most_cameras),
-        .sentence = "pinholes that saw the markers"},
-       {.name = "wrenches",
-        .type = KeyType::list,
-        .otherwise = none,
-        .form = "at most " + std::to_string(most_wrenches),
-        .sentence = "sensors of force and moment in the arm"},
-       {.name = "noise",
-        .type = KeyType::map,
-        .otherwise = Told{"from the data"},
-        .sentence = "known noise of the instruments"},
-       {.name = "effects",
-        .type = KeyType::list,
-        .otherwise = none,
-        .sentence = "known effects of every trial, of scenes and of plants"},
-       {.name = "trials",
-        .type = KeyType::list,
-        .form = "one or more, at most " + std::to_string(most_trials),
-        .sentence = "what was done and measured"}}};
-  return keys;
-}
-
-io::Key plant_key() {
-  return {.name = "plant",
-          .type = KeyType::text,
-          .otherwise = Told{"the only one"},
-          .form = "a plant of the scene",
-          .sentence = "where it sits"};
-}
-
-const io::KeyList& marker_list() {
-  static const io::KeyList keys{
-      "marker",
-      "a marker",
-      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the marker"},
-       plant_key(),
-       {.name = "fruit",
-        .type = KeyType::text,
-        .otherwise = Told{"on a stem"},
-        .form = "a fruit of the plant",
-        .sentence = "in a fruit's centre, in place of `curve` and `at`"},
-       {.name = "link",
-        .type = KeyType::text,
-        .otherwise = Told{"on a plant"},
-        .form = "a link of the robot",
-        .sentence = "on the robot, in place of a plant"},
-       {.name = "offset",
-        .type = KeyType::vector,
-        .unit = "m",
-        .otherwise = SceneMarker{}.offset_L,
-        .sentence = "in the link's frame"}},
-      "",
-      {&plant::place_keys()}};
-  return keys;
-}
-
-const io::KeyList& camera_list() {
-  static const io::KeyList keys{
-      "camera",
-      "a camera",
-      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "names its tables"},
-       {.name = "position", .type = KeyType::vector, .unit = "m", .sentence = "where it is"},
-       {.name = "orientation",
-        .type = KeyType::rotation,
-        .otherwise = io::Needed{},
-        .sentence = "turns its frame into the world's: x right, y down, z forward"},
-       {.name = "focal",
-        .type = KeyType::numbers,
-        .unit = "px",
-        .bounds = {1.0e-3, 1.0e7},
-        .form = "two",
-        .sentence = "focal lengths"},
-       {.name = "centre",
-        .type = KeyType::numbers,
-        .unit = "px",
-        .otherwise = Told{"the middle"},
-        .form = "two",
-        .sentence = "principal point"},
-       {.name = "size",
-        .type = KeyType::numbers,
-        .unit = "px",
-        .otherwise = Told{"`[" + std::to_string(Camera{}.size[0]) + ", " +
-                          std::to_string(Camera{}.size[1]) + "]`"},
-        .bounds = {1.0, 1.0e5},
-        .form = "two",
-        .sentence = "width and height"},
-       {.name = "distortion",
-        .type = KeyType::numbers,
-        .unit = "1",
-        .otherwise = Told{"none"},
-        .bounds = {-1.0e3, 1.0e3},
-        .form = "five",
-        .sentence = "Brown's k1 k2 p1 p2 k3"},
-       {.name = "eye",
-        .type = KeyType::vector,
-        .unit = "m",
-        .otherwise = Told{"none"},
-        .sentence = "where it is, in place of `position`, `orientation` and `focal`"},
-       {.name = "target",
-        .type = KeyType::vector,
-        .unit = "m",
-        .otherwise = Told{"needed beside `eye`"},
-        .form = "apart from `eye`",
-        .sentence = "where it looks"},
-       {.name = "fov",
-        .unit = "rad",
-        .otherwise = Told{"needed beside `eye`"},
-        .bounds = {1.0e-3, 3.1},
-        .sentence = "vertical field of view"}}};
-  return keys;
-}
-
-const io::KeyList& wrench_list() {
-  static const io::KeyList keys{
-      "wrench",
-      "a wrench",
-      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "names its tables"},
-       {.name = "link",
-        .type = KeyType::text,
-        .form = "a link of the robot",
-        .sentence = "whose wrench it is"},
-       {.name = "tared",
-        .type = KeyType::flag,
-        .otherwise = WrenchSensor{}.tared,
-        .sentence = "less its mean over the first " + io::format_number(tare_time) + " s"}}};
-  return keys;
-}
-
-const io::KeyList& noise_list() {
-  const auto deviation = [](const char* name, const char* unit, const char* sentence) {
-    return io::Key{.name = name,
-                   .unit = unit,
-                   .otherwise = Told{"estimated"},
-                   .bounds = io::positive,
-                   .sentence = sentence};
-  };
-  static const io::KeyList keys{"noise",
-                                "noise",
-                                {deviation("position_std", "m", "of a marker's axis"),
-                                 deviation("pixel_std", "px", "of an image point's axis"),
-                                 deviation("force_std", "N", "of a wrench's force"),
-                                 deviation("moment_std", "N m", "of a wrench's moment"),
-                                 deviation("joint_std", "rad or m", "of an encoder"),
-                                 deviation("torque_std", "N m or N", "of a motor's torque")}};
-  return keys;
-}
-
-const io::KeyList& trial_list() {
-  static const io::KeyList keys{
-      "trial",
-      "a trial",
-      {{.name = "name", .type = KeyType::text, .form = "once", .sentence = "name of the trial"},
-       {.name = "folder", .type = KeyType::path, .sentence = "where its tables lie"},
-       {.name = "use",
-        .type = KeyType::word,
-        .otherwise = Told{"the program splits"},
-        .words = {"fit", "check"},
-        .sentence = "`check` holds the trial out of all fits"},
-       {.name = "clock",
-        .unit = "s",
-        .otherwise = SceneTrial{}.clock,
-        .sentence = "when the trial began, since the first"},
-       {.name = "masses",
-        .type = KeyType::list,
-        .otherwise = Told{"none"},
-        .sentence = "known masses that hang on plants in this trial"},
-       {.name = "effects",
-        .type = KeyType::list,
-        .otherwise = Told{"none"},
-        .sentence = "known effects of this trial"},
-       {.name = "robot", .type = KeyType::map, .sentence = "what drives the arm"},
-       {.name = "plants",
-        .type = KeyType::map,
-        .otherwise = Told{"as the scene says"},
-        .form = "names of plants with places",
-        .sentence = "places of plants that stood elsewhere"}}};
-  return keys;
-}
-
-const io::KeyList& follows_list() {
-  static const io::KeyList keys{
-      "follows",
-      "robot",
-      {{.name = "follows",
-        .type = KeyType::word,
-        .words = {"joints", "commands"},
-        .sentence = "encoders that are believed, or a controller that is told"}},
-      "robot"};
-  return keys;
-}
-
-const io::KeyList& mass_list() {
-  static const io::KeyList keys{
-      "mass",
-      "a mass",
-      {{.name = "mass", .unit = "kg", .bounds = io::positive, .sentence = "of one of them"},
-       plant_key()},
-      "masses",
-      {&plant::place_keys()}};
-  return keys;
-}
-
-const io::KeyList& moved_list() {
-  static const io::KeyList keys{"moved",
-                                "a plant's place",
-                                {{.name = "position",
-                                  .type = KeyType::vector,
-                                  .unit = "m",
-                                  .otherwise = Told{"the scene's"},
-                                  .sentence = "of one of them"},
-                                 {.name = "orientation",
-                                  .type = KeyType::rotation,
-                                  .otherwise = Told{"the scene's"},
-                                  .sentence = "of one of them"}},
-                                "plants"};
-  return keys;
-}
-
-class SceneReader {
+class Reader {
  public:
-  SceneReader(const YamlNode& node, const std::filesystem::path& instead)
-      : node_(node), diagnostics_(node.diagnostics()), instead_(instead) {}
+  Reader(const YamlNode& node, const ReadOptions& options)
+      : node_(node), diagnostics_(node.diagnostics()), options_(options) {}
 
-  SceneExperiment read(const std::filesystem::path& folder) {
+  Experiment read(const std::filesystem::path& folder) {
     out_.folder = folder;
     DescribedMap map(node_, experiment_list());
     if (!node_.is_map() || !map.has_format()) return {};
     out_.title = map.text("title");
-    out_.is_run = map.has("source") && map.choice("source") == "run";
-    read_scene(map);
-    // Without a whole scene names cannot be looked up: its own faults are enough.
-    if (!whole_) return {};
-    read_each(map, "cameras", most_cameras, out_.cameras,
-              [&](const YamlNode& node) { return read_camera(node); });
-    read_each(map, "wrenches", most_wrenches, out_.wrenches,
-              [&](const YamlNode& node) { return read_wrench_sensor(node); });
+    is_scene_ = map.has("scene");
+    if (is_scene_) {
+      read_scene(map);
+      // Without a whole scene names cannot be looked up: its own faults are enough.
+      if (!whole_) return {};
+      read_each(map, "cameras", most_cameras, out_.cameras,
+                [&](const YamlNode& node) { return read_camera(node); });
+      read_each(map, "wrenches", most_wrenches, out_.wrenches,
+                [&](const YamlNode& node) { return read_wrench_sensor(node); });
+    } else {
+      refuse_keys(map, {"source", "cameras", "wrenches"});
+      read_plant(map);
+    }
     read_each(map, "markers", most_markers, out_.markers,
               [&](const YamlNode& node) { return read_marker(node); });
+    if (!is_scene_) need_markers(map);
     if (const auto noise = map.optional("noise")) read_noise(*noise);
+    if (!is_scene_) out_.effects = read_effects(map);
     if (const auto trials = map.required("trials")) read_trials(*trials);
-    // Afterwards, because they may name trials.
-    out_.scene_effects = scene_file_effects(out_, diagnostics_);
-    out_.effects = read_effects(map);
+    if (is_scene_) {
+      // Afterwards, because they may name trials.
+      out_.scene_effects = scene_file_effects(out_, diagnostics_);
+      out_.effects = read_effects(map);
+    }
     map.finish();
     return std::move(out_);
   }
+  bool was_stopped() const { return stopped_; }
 
  private:
-  void read_scene(DescribedMap& map) {
-    const auto node = map.required("scene");
+  // Those of the other kind of experiment.
+  void refuse_keys(DescribedMap& map, std::initializer_list<const char*> keys) const {
+    for (const char* key : keys)
+      if (const auto node = map.misplaced(key))
+        node->error(std::string(key) +
+                    (is_scene_ ? " where the model is a scene, expected a single plant"
+                               : " where the model is a single plant, expected a scene"));
+  }
+
+  void read_plant(DescribedMap& map) {
+    const auto node = map.required("plant");
     if (!node) return;
+    const std::string file = node->text("plant");
+    if (file.empty()) return;
+    ExperimentPlant& plant = out_.plants.front();
+    plant.path = out_.folder / file;
+    auto read = plant::read_plant_file(plant.path, diagnostics_);
+    whole_ = read.has_value();
+    if (read) plant.file = std::move(*read), plant.name = plant.file.name;
+  }
+
+  void read_scene(DescribedMap& map) {
+    out_.is_run = map.has("source") && map.choice("source") == "run";
+    const auto node = map.required("scene");
     out_.scene_path = node->text("scene");
     if (out_.scene_path.empty()) return;
     std::filesystem::path file = out_.folder / out_.scene_path;
-    if (!instead_.empty()) {
-      file = instead_;
-      out_.scene_path = instead_.filename();
+    if (!options_.scene.empty()) {
+      file = options_.scene;
+      out_.scene_path = file.filename();
     }
     if (const auto plant = map.misplaced("plant"))
       plant->error("plant beside scene, expected one of them: a scene names its plants");
@@ -363,6 +136,7 @@ class SceneReader {
 
   // As a run has them: with the scene's settings, and each of a grid by itself.
   void read_plants() {
+    out_.plants.clear();
     for (simulation::PlacedPlantFile& plant :
          simulation::plant_files(out_.scene, {}, diagnostics_)) {
       const std::string name = plant.file.name;
@@ -385,23 +159,30 @@ class SceneReader {
     }
   }
 
-  SceneMarker read_marker(const YamlNode& node) {
+  Marker read_marker(const YamlNode& node) {
     DescribedMap map(node, marker_list());
-    SceneMarker marker;
+    Marker marker;
     marker.name = map.text("name");
+    if (!is_scene_) refuse_keys(map, {"plant", "fruit", "link", "offset"});
     if (const auto link = map.optional("link")) {
+      marker.plant = -1;
       marker.link = link_of(*link, "link");
       marker.offset_L = map.vector("offset");
     } else {
       marker.plant = plant_of(map);
-      if (const auto fruit = map.optional("fruit")) {
+      if (const auto fruit = map.optional("fruit"))
         marker.fruit = fruit_of(*fruit, marker.plant);
-      } else {
+      else
         marker.place = place(map, marker.plant);
-      }
     }
     map.finish();
     return marker;
+  }
+
+  void need_markers(DescribedMap& map) const {
+    const auto list = map.required("markers");
+    if (list && list->is_list() && out_.markers.empty())
+      list->error("no markers, expected at least one");
   }
 
   int plant_of(DescribedMap& map) {
@@ -437,12 +218,17 @@ class SceneReader {
 
   plant::CurvePlace place(DescribedMap& map, int plant) {
     plant::CurvePlace found = plant::read_place(map);
-    const plant::PlantFile& file = out_.plants[static_cast<std::size_t>(plant)].file;
-    if (!found.curve.empty() && file.curve_index(found.curve) < 0)
-      diagnostics_.error(
-          found.where,
-          "curve \"" + found.curve + "\" is unknown, expected one of: " + names_of(file.curves));
+    check_curve(found, plant);
     return found;
+  }
+
+  // Without a plant its own faults are enough.
+  void check_curve(const plant::CurvePlace& place, int plant) {
+    const plant::PlantFile& file = out_.plants[static_cast<std::size_t>(plant)].file;
+    if (whole_ && !place.curve.empty() && file.curve_index(place.curve) < 0)
+      diagnostics_.error(
+          place.where,
+          "curve \"" + place.curve + "\" is unknown, expected one of: " + names_of(file.curves));
   }
 
   Camera read_camera(const YamlNode& node) {
@@ -506,38 +292,62 @@ class SceneReader {
 
   void read_noise(const YamlNode& node) {
     DescribedMap map(node, noise_list());
-    SceneNoise& noise = out_.noise;
-    const std::pair<const char*, std::optional<double>*> all[] = {
-        {"position_std", &noise.position_std}, {"pixel_std", &noise.pixel_std},
-        {"force_std", &noise.force_std},       {"moment_std", &noise.moment_std},
-        {"joint_std", &noise.joint_std},       {"torque_std", &noise.torque_std}};
-    for (const auto& [key, value] : all) *value = map.optional_number(key);
+    StatedNoise& noise = out_.noise;
+    noise.position_std = map.optional_number("position_std");
+    noise.force_std = map.optional_number("force_std");
+    noise.moment_std = map.optional_number("moment_std");
+    if (is_scene_) {
+      refuse_keys(map, {"path_std"});
+      noise.pixel_std = map.optional_number("pixel_std");
+      noise.joint_std = map.optional_number("joint_std");
+      noise.torque_std = map.optional_number("torque_std");
+    } else {
+      refuse_keys(map, {"pixel_std", "joint_std", "torque_std"});
+      noise.path_std = map.optional_number("path_std");
+    }
     map.finish();
   }
 
   std::vector<plant::Effect> read_effects(DescribedMap& map) {
     std::vector<plant::Effect> effects;
     for (const YamlNode& node : map.list("effects"))
-      effects.push_back(read_scene_effect(node, out_));
+      effects.push_back(is_scene_ ? read_scene_effect(node, out_) : read_plant_effect(node));
     return effects;
   }
 
+  plant::Effect read_plant_effect(const YamlNode& node) {
+    plant::Effect effect = plant::read_effect(node, effects::EffectFile::experiment);
+    if (effect.place) check_curve(*effect.place, 0);
+    if (!effect.words.contains("marker")) return effect;
+    if (const std::string name = effect.words.at("marker"); index_of(out_.markers, name) < 0)
+      node.error("marker \"" + name + "\" is unknown, expected one of: " + names_of(out_.markers));
+    return effect;
+  }
+
   void read_trials(const YamlNode& list) {
-    for (const YamlNode& node : list.list("trials")) {
+    const std::vector<YamlNode> all = list.list("trials");
+    const auto told = [&] {
+      stopped_ = options_.progress && !options_.progress(static_cast<int>(out_.trials.size()),
+                                                         static_cast<int>(all.size()));
+      return !stopped_;
+    };
+    for (const YamlNode& node : all) {
+      if (!told()) return;
       if (out_.trials.size() == most_trials)
         return node.error("trials: the list goes on, expected at most " +
                           std::to_string(most_trials));
-      SceneTrial trial = read_trial(node);
+      Trial trial = read_trial(node);
       if (!trial.name.empty() && index_of(out_.trials, trial.name) >= 0)
         node.error("trial \"" + trial.name + "\" appears twice, expected each name once");
       out_.trials.push_back(std::move(trial));
     }
+    told();
     if (list.is_list() && out_.trials.empty()) list.error("no trials, expected at least one");
   }
 
-  SceneTrial read_trial(const YamlNode& node) {
+  Trial read_trial(const YamlNode& node) {
     DescribedMap map(node, trial_list());
-    SceneTrial trial;
+    Trial trial;
     trial.name = map.text("name");
     const auto folder = map.required("folder");
     if (folder) trial.folder = folder->text("folder");
@@ -545,34 +355,56 @@ class SceneReader {
       trial.use = map.choice("use") == "fit" ? Trial::Use::fit : Trial::Use::check;
     trial.clock = map.number("clock");
     for (const YamlNode& item : map.list("masses")) trial.masses.push_back(read_mass(item));
-    if (const auto robot = map.required("robot")) {
-      DescribedMap follows(*robot, follows_list());
-      trial.follows_commands = follows.choice("follows") == "commands";
-      follows.finish();
+    std::optional<YamlNode> drive;
+    if (is_scene_) {
+      refuse_keys(map, {"gravity", "begins", "window", "static", "drive"});
+      if (const auto robot = map.required("robot")) {
+        DescribedMap follows(*robot, follows_list());
+        trial.follows_commands = follows.choice("follows") == "commands";
+        follows.finish();
+      }
+      if (const auto plants = map.optional("plants")) read_poses(*plants, trial);
+    } else {
+      refuse_keys(map, {"robot", "plants"});
+      trial.gravity = map.vector("gravity");
+      read_beginning(map, trial);
+      drive = map.required("drive");
     }
-    if (const auto plants = map.optional("plants")) read_poses(*plants, trial);
     trial.effects = read_effects(map);
     map.finish();
     if (trial.folder.empty()) return trial;
     const std::filesystem::path at = out_.folder / trial.folder;
-    if (!std::filesystem::is_directory(at))
+    if (!std::filesystem::is_directory(at)) {
       folder->error("folder " + at.string() + " does not exist, expected the trial's tables in it");
-    else
-      read_tables(at, trial);
+      return trial;
+    }
+    if (drive)
+      read_drives(
+          *drive, at, [&](const plant::CurvePlace& place) { check_curve(place, 0); }, trial);
+    if (is_scene_) {
+      read_scene_tables(at, trial);
+      return trial;
+    }
+    read_plant_tables(at, trial);
+    if (trial.is_static) check_static(node, trial, diagnostics_);
+    check_noise(node, trial);
+    check_window(at, trial);
+    end_holds(trial);
     return trial;
   }
 
-  SceneTrial::Mass read_mass(const YamlNode& node) {
+  Trial::Mass read_mass(const YamlNode& node) {
     DescribedMap map(node, mass_list());
-    SceneTrial::Mass mass;
+    if (!is_scene_) refuse_keys(map, {"plant"});
+    Trial::Mass mass;
     mass.plant = plant_of(map);
-    mass.mass.place = place(map, mass.plant);
-    mass.mass.mass = map.number("mass");
+    mass.place = place(map, mass.plant);
+    mass.mass = map.number("mass");
     map.finish();
     return mass;
   }
 
-  void read_poses(const YamlNode& node, SceneTrial& trial) {
+  void read_poses(const YamlNode& node, Trial& trial) {
     io::YamlMap map(node, "plants");  // its keys are names of plants
     for (std::size_t p = 0; p < out_.plants.size(); ++p) {
       const auto entry = map.optional(out_.plants[p].name);
@@ -588,23 +420,84 @@ class SceneReader {
     map.finish();
   }
 
-  void read_tables(const std::filesystem::path& folder, SceneTrial& trial) {
+  // How the plant is at time 0, and whether there is a time at all.
+  static void read_beginning(DescribedMap& map, Trial& trial) {
+    trial.is_static = map.boolean("static");
+    const bool moves = map.choice("begins") == "moving";
+    const auto window = map.optional("window");
+    if (moves) trial.window = map.number("window");
+    if (window && !moves)
+      window->error("a window where the trial begins at rest, expected begins: moving beside it");
+    if (moves && trial.is_static)
+      map.error("begins: moving in a static series, expected one of the two");
+  }
+
+  void check_window(const std::filesystem::path& folder, const Trial& trial) const {
+    if (!trial.window || trial.markers.size() == 0) return;
+    const auto within = std::ranges::count_if(
+        trial.markers.time, [&](double t) { return t <= *trial.window + 1.0e-9; });
+    if (within < least_in_window)
+      diagnostics_.error({(folder / "markers.csv").string(), 0, 0},
+                         "has " + std::to_string(within) + " rows up to " +
+                             io::format_number(*trial.window) +
+                             " s, the window of a trial that begins in motion, expected " +
+                             std::to_string(least_in_window) + " or more");
+  }
+
+  // Nothing rests there from one row to the next, so that the noise cannot be read off the data.
+  void check_noise(const YamlNode& node, const Trial& trial) const {
+    if (!trial.is_static) return;
+    const StatedNoise& noise = out_.noise;
+    const auto need = [&](const std::optional<double>& std, const char* key) {
+      if (!std)
+        node.error("a static series where noise has no " + std::string(key) +
+                   ", expected one: rows at rest once each do not show their noise");
+    };
+    need(noise.position_std, "position_std");
+    if (trial.force.size() > 0 || trial.wrench.size() > 0) need(noise.force_std, "force_std");
+    if (trial.wrench.size() > 0) need(noise.moment_std, "moment_std");
+  }
+
+  // A path of one row is a place: it does not end.
+  static void end_holds(Trial& trial) {
+    for (Hold& hold : trial.holds)
+      if (std::isinf(hold.release) && hold.path.time.size() > 1 &&
+          hold.path.time.back() < trial.duration())
+        hold.release = hold.path.time.back();
+  }
+
+  void read_plant_tables(const std::filesystem::path& folder, Trial& trial) {
+    const Rows rows = trial.is_static ? Rows::rest : Rows::time;
+    trial.markers = read_markers(folder / "markers.csv", out_.markers, diagnostics_, rows);
+    if (std::filesystem::exists(folder / "force.csv")) {
+      trial.force = read_force(folder / "force.csv", diagnostics_, rows);
+      if (trial.holds.empty())
+        diagnostics_.warning({(folder / "force.csv").string(), 1, 1},
+                             "a force was measured where nothing is held, expected a hold");
+    }
+    read_events_of(folder, trial);
+    if (!trial.wrench_file.empty())
+      trial.wrench = read_wrench(folder / trial.wrench_file, diagnostics_, rows);
+  }
+
+  void read_scene_tables(const std::filesystem::path& folder, Trial& trial) {
     const auto there = [&](const std::string& name) {
       return std::filesystem::exists(folder / name);
     };
     // One of the two drives the arm; the other may be there, too.
     const std::string driver = trial.follows_commands ? "commands.csv" : "joints.csv";
-    if (there("joints.csv") || !trial.follows_commands)
-      trial.joints = read_joint_table(folder / "joints.csv", out_.robot, io::Quantity::angle,
-                                      trial.joint_columns, diagnostics_);
-    if (there("commands.csv") || trial.follows_commands)
-      trial.commands = read_joint_table(folder / "commands.csv", out_.robot, io::Quantity::angle,
-                                        trial.command_columns, diagnostics_);
-    if (there("torques.csv"))
-      trial.torques = read_joint_table(folder / "torques.csv", out_.robot, io::Quantity::moment,
-                                       trial.torque_columns, diagnostics_);
+    const auto read_joints = [&](const char* file, io::Quantity quantity, bool needed,
+                                 std::vector<int>& columns) {
+      if (!needed && !there(file)) return Samples{};
+      return read_joint_table(folder / file, out_.robot, quantity, columns, diagnostics_);
+    };
+    trial.joints = read_joints("joints.csv", io::Quantity::angle, !trial.follows_commands,
+                               trial.joint_columns);
+    trial.commands = read_joints("commands.csv", io::Quantity::angle, trial.follows_commands,
+                                 trial.command_columns);
+    trial.torques = read_joints("torques.csv", io::Quantity::moment, false, trial.torque_columns);
     if (there("markers.csv"))
-      trial.markers = read_scene_markers(folder / "markers.csv", out_.markers, diagnostics_);
+      trial.markers = read_some_markers(folder / "markers.csv", out_.markers, diagnostics_);
     for (const Camera& camera : out_.cameras) {
       const std::string name = "pixels_" + camera.name + ".csv";
       trial.pixels.push_back(there(name) ? read_pixels(folder / name, out_.markers, diagnostics_)
@@ -615,12 +508,20 @@ class SceneReader {
       trial.wrenches.push_back(
           there(name) ? read_samples(folder / name, wrench_spec(), diagnostics_) : Samples{});
     }
-    if (there("events.csv"))
-      trial.events = read_events(
-          folder / "events.csv", diagnostics_,
-          [&](const MeasuredEvent& event, io::SpecTable& table) { check_event(event, table); });
+    read_events_of(folder, trial);
     check_strangers(folder);
     check_begin(folder, driver, trial);
+  }
+
+  void read_events_of(const std::filesystem::path& folder, Trial& trial) {
+    if (!std::filesystem::exists(folder / "events.csv")) return;
+    trial.events = read_events(folder / "events.csv", diagnostics_,
+                               [&](const MeasuredEvent& event, io::SpecTable& table) {
+                                 if (is_scene_)
+                                   check_scene_event(event, table);
+                                 else
+                                   check_plant_event(event, table);
+                               });
   }
 
   // A table of an instrument that experiment.yaml does not have would be passed over in silence.
@@ -641,7 +542,7 @@ class SceneReader {
   }
 
   void check_begin(const std::filesystem::path& folder, const std::string& driver,
-                   const SceneTrial& trial) {
+                   const Trial& trial) {
     const Samples& lead = trial.follows_commands ? trial.commands : trial.joints;
     if (lead.size() == 0) {
       // Rows that could not be read were told one by one.
@@ -675,7 +576,15 @@ class SceneReader {
       check("wrench_" + out_.wrenches[w].name + ".csv", trial.wrenches[w]);
   }
 
-  void check_event(const MeasuredEvent& event, io::SpecTable& table) {
+  // What detached is a fruit of the plant.
+  void check_plant_event(const MeasuredEvent& event, io::SpecTable& table) const {
+    if (event.is_detachment() && index_of(out_.plant().fruits, event.what) < 0)
+      table.row_error("no fruit", what_column,
+                      "what: " + in_quotes(event.what) + " is no fruit of plant \"" +
+                          out_.plant().name + "\", expected the name of one that detached");
+  }
+
+  void check_scene_event(const MeasuredEvent& event, io::SpecTable& table) {
     constexpr const char* kinds[] = {"grasped", "released", "detached", "slipped"};
     if (std::ranges::find(kinds, event.event) == std::end(kinds))
       table.row_error(
@@ -684,7 +593,7 @@ class SceneReader {
     if (event.time < 0.0)
       table.row_error("no time", event_column,
                       "the event is before the trial begins, expected a time >= 0");
-    const bool known = std::ranges::any_of(out_.plants, [&](const ScenePlantFile& plant) {
+    const bool known = std::ranges::any_of(out_.plants, [&](const ExperimentPlant& plant) {
       return index_of(plant.file.fruits, event.what) >= 0 ||
              index_of(plant.file.curves, event.what) >= 0;
     });
@@ -701,42 +610,25 @@ class SceneReader {
 
   const YamlNode& node_;
   Diagnostics& diagnostics_;
-  const std::filesystem::path& instead_;
-  SceneExperiment out_;
-  bool whole_ = false;
+  const ReadOptions& options_;
+  Experiment out_;
+  bool is_scene_ = false;
+  bool whole_ = false;  // the plant, or the scene
+  bool stopped_ = false;
 };
-
-std::filesystem::path file_of(const std::filesystem::path& path) {
-  return std::filesystem::is_directory(path) ? path / "experiment.yaml" : path;
-}
 
 }  // namespace
 
-bool is_scene_experiment(const std::filesystem::path& path) {
-  Diagnostics ignored;
-  try {
-    const YamlNode node = io::load_yaml(file_of(path), ignored);
-    return node.is_map() && node.raw()["scene"] && node.raw()["format"] &&
-           node.raw()["format"].IsScalar() && node.raw()["format"].Scalar() == "pedicel-experiment";
-  } catch (const std::exception&) {
-    return false;
-  }
-}
-
-std::vector<const io::KeyList*> scene_experiment_keys() {
-  return {&experiment_list(), &marker_list(), &plant::place_keys(), &camera_list(), &wrench_list(),
-          &noise_list(),      &trial_list(),  &follows_list(),      &mass_list(),   &moved_list()};
-}
-
-std::optional<SceneExperiment> read_scene_experiment(const std::filesystem::path& path,
-                                                     Diagnostics& diagnostics,
-                                                     const std::filesystem::path& scene) {
+std::optional<Experiment> read_experiment(const std::filesystem::path& path,
+                                          Diagnostics& diagnostics, const ReadOptions& options) {
   const int before = diagnostics.error_count();
-  const std::filesystem::path file = file_of(path);
+  const std::filesystem::path file =
+      std::filesystem::is_directory(path) ? path / "experiment.yaml" : path;
   try {
     const YamlNode node = io::load_yaml(file, diagnostics);
-    SceneExperiment experiment = SceneReader(node, scene).read(file.parent_path());
-    if (diagnostics.error_count() == before) return experiment;
+    Reader reader(node, options);
+    Experiment experiment = reader.read(file.parent_path());
+    if (!reader.was_stopped() && diagnostics.error_count() == before) return experiment;
   } catch (const InvalidFile& fault) {
     diagnostics.add(fault);
   }

@@ -1,4 +1,4 @@
-#include "plugins/discrepancy/scene/scene_experiment.h"
+#include "plugins/discrepancy/data/experiment.h"
 
 #include <algorithm>
 
@@ -6,21 +6,28 @@
 
 namespace pedicel::discrepancy {
 
-double SceneTrial::duration() const {
+double Trial::duration() const {
   double last = 0.0;
   const auto look = [&](const Samples& samples) {
     if (samples.size() > 0) last = std::max(last, samples.time.back());
   };
-  for (const Samples* samples : {&joints, &commands, &torques, &markers}) look(*samples);
+  for (const Samples* samples : {&markers, &force, &wrench, &joints, &commands, &torques})
+    look(*samples);
   for (const Samples& samples : pixels) look(samples);
   for (const Samples& samples : wrenches) look(samples);
   return last;
 }
 
-int SceneExperiment::plant_index(const std::string& name) const {
+int Experiment::plant_index(const std::string& name) const {
   for (std::size_t i = 0; i < plants.size(); ++i)
     if (plants[i].name == name) return static_cast<int>(i);
   return -1;
+}
+
+bool records_detachments(const Experiment& experiment) {
+  return std::ranges::any_of(experiment.trials, [](const Trial& trial) {
+    return std::ranges::any_of(trial.events, &MeasuredEvent::is_detachment);
+  });
 }
 
 std::vector<std::string> joint_names(const robot::RobotDescription& robot) {

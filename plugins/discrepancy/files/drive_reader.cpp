@@ -1,4 +1,4 @@
-#include "plugins/discrepancy/data/drive_reader.h"
+#include "plugins/discrepancy/files/drive_reader.h"
 
 #include <cmath>
 
