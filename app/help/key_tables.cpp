@@ -29,7 +29,6 @@ struct KeyPage {
 constexpr KeyPage key_pages[] = {{"scene_file", world::scene_keys},
                                  {"plant_file", plant::plant_file_keys},
                                  {"experiment", discrepancy::experiment_keys},
-                                 {"scene_experiment", discrepancy::experiment_keys},
                                  {"verdict", discrepancy::verdict_keys, KeysOf::written_file}};
 
 const KeyPage& page_of(const std::string& page) {
