@@ -9,7 +9,7 @@ namespace pedicel::discrepancy {
 
 namespace {
 
-constexpr const char* differs = "is not what it was before, expected the same or another name";
+constexpr const char* changed = "is not what it was before, expected the same or another name";
 
 [[noreturn]] void refuse(const Experiment& more, const std::string& why) {
   throw UsageError(more.folder.string() + ": " + why);
@@ -89,7 +89,7 @@ void check_models(const Experiment& more, const Experiment& experiment) {
                           &ExperimentPlant::name))
     refuse(more,
            "its plants are not those of " + before + ", expected the same ones in the same order");
-  order_of(more, "plant", experiment.plants, more.plants, drawn_alike, differs);
+  order_of(more, "plant", experiment.plants, more.plants, drawn_alike, changed);
 }
 
 // Refuses a name that is there already.
@@ -119,13 +119,13 @@ void add_trials(const Experiment& more, Experiment& experiment) {
       [](const Camera& a, const Camera& b) {
         return near(a.X_WC, b.X_WC) && a.focal.isApprox(b.focal) && a.centre.isApprox(b.centre);
       },
-      differs);
+      changed);
   const std::vector<int> wrenches = order_of(
       more, "wrench", experiment.wrenches, more.wrenches,
       [](const WrenchSensor& a, const WrenchSensor& b) {
         return a.link == b.link && a.tared == b.tared;
       },
-      differs);
+      changed);
   for (const Trial& trial : more.trials) {
     Trial added = trial;
     added.markers = in_order(trial.markers, markers, 3);

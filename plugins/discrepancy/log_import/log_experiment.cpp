@@ -22,7 +22,9 @@ void write_tables(const fs::path& folder, const LogMap& map, const LogTrial& tri
   write("joints.csv", trial.joint_names, trial.joints);
   write("commands.csv", trial.command_names, trial.commands);
   write("torques.csv", trial.torque_names, trial.torques);
-  write("markers.csv", marker_columns(map.markers), trial.markers);
+  std::vector<Marker> markers;
+  for (const LogMap::Marker& marker : map.markers) markers.push_back({marker.name, {}});
+  write("markers.csv", marker_columns(markers), trial.markers);
   for (std::size_t w = 0; w < trial.wrenches.size(); ++w)
     write("wrench_" + map.wrenches[w].name + ".csv", wrench_columns(), trial.wrenches[w]);
   if (!trial.events.empty())
