@@ -102,7 +102,7 @@ TEST_F(DataPanelTest, ShowsTheMarkersOverThePlant) {
 // Beads that lie within a thick stem cannot be seen.
 TEST_F(DataPanelTest, MarkersStandOutOfThickStems) {
   discrepancy::Experiment e = pedicel::testing::MeasuredStem().experiment();
-  for (plant::PlantCurve& curve : e.plant.curves) curve.radius = {0.02};
+  for (plant::PlantCurve& curve : e.plant().curves) curve.radius = {0.02};
   discrepancy::write_experiment(folder_ / "stem", e);
   open();
   MeasuredMarks marks;

@@ -14,13 +14,13 @@ using discrepancy::Trial;
 // A leaning stem, held by its middle where it stands under its weight and pulled from there.
 Experiment pulled_stem() {
   Experiment e;
-  e.plant = reference::straight_stem(0.4, 0.003, 4e8);
-  e.plant.curves[0].points[1] = Vec3(0.2, 0, 0.3);
+  e.plant() = reference::straight_stem(0.4, 0.003, 4e8);
+  e.plant().curves[0].points[1] = Vec3(0.2, 0, 0.3);
   e.markers = {{"middle", {"stem", 0.5, {}}}, {"tip", {"stem", 1.0, {}}}};
   Trial t;
   t.name = "pull";
   const Vec3 start =
-      reference::settled_point({e.plant, {}, {}}, {}, e.markers[0].place, {0.005, 0.0017});
+      reference::settled_point({e.plant(), {}, {}}, {}, e.markers[0].place, {0.005, 0.0017});
   t.holds = {{e.markers[0].place, {{0.0, 1.0}, {start, start + Vec3(0, 0.02, 0)}, {}}, 2.0, 50.0}};
   for (int i = 0; i <= 50; ++i) t.markers.time.push_back(0.02 * i);
   t.markers.value.setZero(51, 6);

@@ -37,7 +37,7 @@ Trial trial(const std::string& name, double duration) {
 /// Pulled aside within half a second and let go; then bent by a weight in two steps and back.
 Experiment measured() {
   Experiment e;
-  e.plant = stem();
+  e.plant() = stem();
   e.noise.position_std = noise;
   e.markers = {
       {"low", {"stem", 0.35, {}}}, {"middle", {"stem", 0.65, {}}}, {"top", {"stem", 0.95, {}}}};

@@ -81,7 +81,7 @@ std::vector<plant::Effect> MeasuredScene::found_effects() const {
 void MeasuredScene::adopt_diagnosis() {
   if (diagnosis_->extended.empty()) return;
   run({discrepancy::refitted, discrepancy::extended},
-      {{diagnosis_->findings.baseline.model.effects}, {diagnosis_->model}});
+      {{diagnosis_->findings.baseline.hypothesis.effects}, {diagnosis_->model}});
 }
 
 }  // namespace pedicel::app

@@ -21,14 +21,16 @@ constexpr double open_direction = 1.0e-3;  // noise units an unknown: nothing to
 /// ends that has tried in vain to go on.
 class Problem : public ceres::CostFunction {
  public:
-  Problem(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options,
-          const Differences& differences)
+  Problem(ResidualSource& evaluator, const Hypothesis& start, const FitOptions& options,
+          const FitStyle& style, const Differences& differences)
       : evaluator_(evaluator),
         hypothesis_(start),
         options_(options),
+        style_(style),
         start_(start.unknowns()),
         differences_(differences),
-        samples_(evaluator.data().size(options.trials)) {
+        spread_(style.weighs_priors ? 0.0 : 1.0),
+        samples_(evaluator.size(options.trials)) {
     // A row more for every unknown, whether something is known of it or not. Rows of zeros change
     // nothing, and all models are laid out alike.
     set_num_residuals(samples_ + start.size());
@@ -38,7 +40,7 @@ class Problem : public ceres::CostFunction {
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
     const Eigen::Map<const Eigen::VectorXd> u(parameters[0], start_.size());
-    compute(u);
+    compute(u, jacobians && jacobians[0]);
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
     r.head(samples_) = now_.residual;
     // What is known beforehand stands among the residuals, as a measurement of the unknown itself.
@@ -57,8 +59,13 @@ class Problem : public ceres::CostFunction {
     return true;
   }
 
-  void compute(const Eigen::VectorXd& u) const {
-    if (now_.is_at(u)) return;
+  /// `with_derivatives`: they are wanted, too.
+  void compute(const Eigen::VectorXd& u, bool with_derivatives = true) const {
+    if (!now_.is_at(u)) move_to(u);
+    if (with_derivatives && !now_.has_jacobian()) differentiate();
+  }
+
+  void move_to(const Eigen::VectorXd& u) const {
     // No copy but an exchange: the point that was the last one may still be the better of the two.
     if (best_.is_at(u)) {
       std::swap(now_, best_);
@@ -67,17 +74,22 @@ class Problem : public ceres::CostFunction {
     // Only the point that is left behind competes here, so the best one is never lost to the next.
     // What is known beforehand counts, too: nearer to the data and farther from that is not better.
     if (best_.u.size() == 0 || objective(now_) < objective(best_)) std::swap(now_, best_);
-    // Derivatives are simulated with the point, asked for or not. Equal plants share the solver's
-    // lanes, so one alone would leave them empty, and a step that is taken would be simulated
-    // twice.
-    const Eigen::MatrixXd r = evaluator_.residuals(differences_.points(u), options_);
-    now_ = {u, r.col(0), differences_.jacobian(r)};
+    if (style_.derivatives_at_once) {
+      // Equal plants share the solver's lanes, so one alone would leave them empty, and a step that
+      // is taken would be simulated twice.
+      const Eigen::MatrixXd r = evaluator_.residuals(differences_.points(u), options_);
+      now_ = {u, r.col(0), differences_.jacobian(r)};
+    } else {
+      Hypothesis model = hypothesis_;
+      model.set_unknowns(u);
+      now_ = {u, evaluator_.residuals({&model, 1}, options_).col(0), {}};
+    }
     // Where the model misses the data by many times the noise, the data weigh less against what is
     // known beforehand. Set once, so that the cost stays one function. Without it a model that
     // misses by 50 noise units would drag a density that was weighed to wherever a misfit that is
     // no noise gets smaller.
     if (spread_ == 0.0) {
-      const int seen = evaluator_.data().samples(options_.trials, options_.horizon);
+      const int seen = evaluator_.samples(options_.trials, options_.horizon);
       spread_ = std::sqrt(std::max(1.0, now_.residual.squaredNorm() / std::max(1, seen)));
     }
   }
@@ -91,7 +103,7 @@ class Problem : public ceres::CostFunction {
     if (!differences_.suited()) now_ = {};
   }
 
-  const DataSet& data() const { return evaluator_.data(); }
+  int seen() const { return evaluator_.samples(options_.trials, options_.horizon); }
   const Eigen::VectorXd& residual() const { return now_.residual; }
   const Eigen::MatrixXd& jacobian() const { return now_.jacobian; }
   double spread() const { return spread_; }
@@ -100,8 +112,21 @@ class Problem : public ceres::CostFunction {
   struct Point {
     Eigen::VectorXd u, residual;
     Eigen::MatrixXd jacobian;
-    bool is_at(const Eigen::VectorXd& there) const { return u.size() > 0 && u == there; }
+    bool is_at(const Eigen::VectorXd& there) const {
+      return residual.size() > 0 && u.size() == there.size() && u == there;
+    }
+    bool has_jacobian() const { return jacobian.rows() == residual.size(); }
   };
+
+  // At the point itself, which was simulated without them.
+  void differentiate() const {
+    std::vector<Hypothesis> points = differences_.points(now_.u);
+    Eigen::MatrixXd r(samples_, static_cast<Eigen::Index>(points.size()));
+    r.col(0) = now_.residual;
+    if (points.size() > 1)
+      r.rightCols(r.cols() - 1) = evaluator_.residuals(std::span(points).subspan(1), options_);
+    now_.jacobian = differences_.jacobian(r);
+  }
 
   // What a fit minimises.
   double objective(const Point& point) const {
@@ -122,12 +147,13 @@ class Problem : public ceres::CostFunction {
     return parameter.prior > 0.0 ? parameter.to_unknown(parameter.prior_centre) : 0.0;
   }
 
-  Evaluator& evaluator_;
+  ResidualSource& evaluator_;
   Hypothesis hypothesis_;
   FitOptions options_;
+  FitStyle style_;
   Eigen::VectorXd start_;
   mutable Differences differences_;
-  mutable double spread_ = 0.0;
+  mutable double spread_;
   int samples_;
   mutable Point now_, best_;
 };
@@ -149,42 +175,54 @@ void add(Prediction& to, double share, const Prediction& change) {
 void judge(FitSummary& fit) {
   const int n = fit.hypothesis.size();
   const Eigen::VectorXd u = fit.hypothesis.unknowns();
-  fit.standard_error = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
-  Eigen::MatrixXd information = fit.jacobian.transpose() * fit.jacobian;
-  Eigen::VectorXd size(n);
+  const Eigen::VectorXd lows = fit.hypothesis.low(), highs = fit.hypothesis.high();
   for (int p = 0; p < n; ++p) {
-    const double prior = fit.hypothesis.free[p].prior;
-    if (prior > 0.0) information(p, p) += 1.0 / (prior * prior);
-    size[p] = std::sqrt(information(p, p));
-    const double low = fit.hypothesis.low()[p], high = fit.hypothesis.high()[p];
     // Unknowns come back by way of their values, through a logarithm and its inverse, so that a
     // bound is met to rounding alone.
-    const double near = 1.0e-6 * (1.0 + high - low);
-    if (u[p] - low < near || high - u[p] < near) fit.at_bound.push_back(p);
+    const double near = 1.0e-6 * (1.0 + highs[p] - lows[p]);
+    if (u[p] - lows[p] < near || highs[p] - u[p] < near) fit.at_bound.push_back(p);
   }
-  // One unknown that moves nothing makes the whole matrix singular. The others get the error that
-  // they would have alone: too small where they trade with each other, but better than none.
-  if (n == 0 || size.minCoeff() < open_direction) {
-    fit.condition = n == 0 ? 1.0 : std::numeric_limits<double>::infinity();
-    for (int p = 0; p < n; ++p)
-      if (size[p] >= open_direction) fit.standard_error[p] = 1.0 / size[p];
-    return;
-  }
-  // To a diagonal of ones first. Unknowns are logarithms, lengths in their own scales, and shares;
-  // the condition of the bare matrix would tell these units and nothing of the data.
-  const Eigen::MatrixXd scaled =
-      size.cwiseInverse().asDiagonal() * information * size.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  // By rounding the smallest one may come out below zero, where it has no root and no inverse.
-  const Eigen::VectorXd values = eigen.eigenvalues().cwiseMax(1.0e-14);
-  // The root, because the information is the square of the Jacobian that the condition is told of.
-  fit.condition = std::sqrt(values[n - 1] / values[0]);
-  const Eigen::MatrixXd inverse =
-      eigen.eigenvectors() * values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-  for (int p = 0; p < n; ++p) fit.standard_error[p] = std::sqrt(inverse(p, p)) / size[p];
+  const Covariance covariance = covariance_of(fit);
+  fit.condition = covariance.condition;
+  fit.standard_error = covariance.matrix.diagonal().cwiseSqrt();
+  for (const int p : covariance.open)
+    fit.standard_error[p] = std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
+
+Covariance covariance_of(const FitSummary& fit) {
+  const auto n = static_cast<int>(fit.jacobian.cols());
+  Covariance result{Eigen::MatrixXd::Zero(n, n), {}, 1.0};
+  Eigen::MatrixXd information = fit.jacobian.transpose() * fit.jacobian;
+  std::vector<int> seen;
+  for (int p = 0; p < n; ++p) {
+    const double prior = fit.hypothesis.free[p].prior;
+    if (prior > 0.0) information(p, p) += 1.0 / (prior * prior);
+    // One unknown that moves nothing would make the whole matrix singular. The others do not care
+    // for where it stands.
+    (information(p, p) < open_direction * open_direction ? result.open : seen).push_back(p);
+  }
+  if (!seen.empty()) {
+    const Eigen::MatrixXd shown = information(seen, seen);
+    // To a diagonal of ones first. Unknowns are logarithms, lengths in their own scales, and
+    // shares; the condition of the bare matrix would tell these units and nothing of the data.
+    const Eigen::VectorXd scale = shown.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * shown *
+                                                               scale.asDiagonal());
+    // By rounding the smallest one may come out below zero, where it has no root and no inverse:
+    // two numbers that trade with each other.
+    const Eigen::VectorXd values = eigen.eigenvalues().cwiseMax(1.0e-14);
+    // The root, because the information is the square of the Jacobian that the condition is told
+    // of.
+    result.condition = std::sqrt(values[values.size() - 1] / values[0]);
+    result.matrix(seen, seen) = scale.asDiagonal() * eigen.eigenvectors() *
+                                values.cwiseInverse().asDiagonal() *
+                                eigen.eigenvectors().transpose() * scale.asDiagonal();
+  }
+  if (!result.open.empty()) result.condition = std::numeric_limits<double>::infinity();
+  return result;
+}
 
 PriorRows prior_rows(const FitSummary& model) {
   const int n = model.hypothesis.size();
@@ -292,47 +330,14 @@ Eigen::MatrixXd Evaluator::residuals(std::span<const Hypothesis> hypotheses,
 
 namespace {
 
-FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptions& options) {
+FitSummary result_at(const Problem& problem, const Hypothesis& start, const Eigen::VectorXd& u) {
+  // Where a fit ended is one of the two points that are kept, but for a bound that was set exactly.
+  problem.compute(u);
   FitSummary result;
   result.hypothesis = start;
-  Eigen::VectorXd u = bounded(start);
-  if (start.size() == 0) {
-    result.converged = true;
-    // Ceres has nothing to move here. The model's residual is wanted all the same, as of any other.
-    result.why = "nothing is free";
-  } else {
-    ceres::Solver::Options settings;
-    // A few unknowns and thousands of samples: the normal equations are tiny. That their condition
-    // is the square of the Jacobian's is mended by the damping of Levenberg-Marquardt, which bounds
-    // it.
-    settings.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    settings.max_num_iterations = options.iterations;
-    // Ceres compares a step's gain with the cost. Where noise alone is left the cost is half the
-    // number of samples, so this share of it is `least_step` nats. A share that is the same for all
-    // records would end long ones in the middle of a valley.
-    settings.function_tolerance =
-        2.0 * options.least_step /
-        std::max(1, problem.data().samples(options.trials, options.horizon));
-    // So small that fits end by what they gain, not by how far they step. In a valley where two
-    // effects trade, short steps may still gain.
-    settings.parameter_tolerance = 1.0e-6;
-    // Where an effect does almost what modulus or density does, the valley to the minimum is narrow
-    // and bent: a fit that may only go down creeps along it, or stops on its side. Measured on a
-    // mass distribution: 9 steps in place of 18.
-    settings.use_nonmonotonic_steps = true;
-    // With bounds Ceres searches along every step. One try is the whole step, which the trust
-    // region looks at anyway; where that fails the region shrinks.
-    settings.max_num_line_search_step_size_iterations = 1;
-    settings.logging_type = ceres::SILENT;
-    BoundedSolution found = solve_bounded(problem, start.low(), start.high(), settings, u);
-    result.converged = found.converged;
-    result.why = std::move(found.why);
-  }
-  // Where the fit ended is one of the two points that are kept, but for a bound that was set
-  // exactly.
-  problem.compute(u);
   result.hypothesis.set_unknowns(u);
   result.residual = problem.residual();
+  result.samples = problem.seen();
   result.jacobian = problem.jacobian();
   result.spread = problem.spread();
   // Of the data alone. What is known beforehand is added by those who compare models, each in its
@@ -342,25 +347,73 @@ FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptio
   return result;
 }
 
+FitSummary solve(const Problem& problem, const Hypothesis& start, const FitOptions& options,
+                 const FitStyle& style) {
+  bool converged = true;
+  // Ceres has nothing to move where nothing is free. The model's residual is wanted all the same.
+  std::string why = "nothing is free";
+  Eigen::VectorXd u = bounded(start);
+  if (start.size() > 0) {
+    ceres::Solver::Options settings;
+    // A few unknowns and thousands of samples: the normal equations are tiny. That their condition
+    // is the square of the Jacobian's is mended by the damping of Levenberg-Marquardt, which bounds
+    // it.
+    settings.linear_solver_type = style.by_columns ? ceres::DENSE_QR : ceres::DENSE_NORMAL_CHOLESKY;
+    settings.max_num_iterations = options.iterations;
+    // Ceres compares a step's gain with the cost. Where noise alone is left the cost is half the
+    // number of samples, so this share of it is `least_step` nats. A share that is the same for all
+    // records would end long ones in the middle of a valley.
+    settings.function_tolerance = 2.0 * options.least_step / std::max(1, problem.seen());
+    // So small that fits end by what they gain, not by how far they step. In a valley where two
+    // effects trade, short steps may still gain.
+    settings.parameter_tolerance = 1.0e-6;
+    // Where an effect does almost what modulus or density does, the valley to the minimum is narrow
+    // and bent: a fit that may only go down creeps along it, or stops on its side. Measured on a
+    // mass distribution: 9 steps in place of 18.
+    settings.use_nonmonotonic_steps = style.goes_up;
+    // With bounds Ceres searches along every step. One try is the whole step, which the trust
+    // region looks at anyway; where that fails the region shrinks.
+    settings.max_num_line_search_step_size_iterations = 1;
+    settings.logging_type = ceres::SILENT;
+    BoundedSolution found = solve_bounded(problem, start.low(), start.high(), settings, u);
+    converged = found.converged;
+    why = std::move(found.why);
+  }
+  FitSummary result = result_at(problem, start, u);
+  result.converged = converged;
+  result.why = std::move(why);
+  return result;
+}
+
 }  // namespace
 
-FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options,
+FitSummary fit(ResidualSource& evaluator, const Hypothesis& start, const FitOptions& options,
                const Eigen::MatrixXd& known) {
+  const FitStyle style = evaluator.style(start);
   // Derivatives that are known are those of a model near by. Their sizes are tried before they are
   // trusted.
-  const Problem problem(evaluator, start, options, Differences(start, known));
-  if (start.size() > 0) problem.find_differences(bounded(start));
-  return solve(problem, start, options);
+  const Problem problem(evaluator, start, options, style,
+                        Differences(start, known, style.differences));
+  if (start.size() > 0 && style.derivatives_at_once) problem.find_differences(bounded(start));
+  return solve(problem, start, options, style);
 }
 
-FitSummary refit(Evaluator& evaluator, const FitSummary& found, const FitOptions& options) {
+FitSummary look_at(ResidualSource& evaluator, const Hypothesis& model, const FitOptions& options) {
+  const FitStyle style = evaluator.style(model);
+  return result_at(Problem(evaluator, model, options, style, Differences(model, style.differences)),
+                   model, model.unknowns());
+}
+
+FitSummary refit(ResidualSource& evaluator, const FitSummary& found, const FitOptions& options) {
   const Hypothesis& start = found.hypothesis;
+  const FitStyle style = evaluator.style(start);
   // These derivatives were taken at this very point, so nothing has to be found out.
-  const Problem problem(evaluator, start, options, Differences(start, found.jacobian));
-  return solve(problem, start, options);
+  const Problem problem(evaluator, start, options, style,
+                        Differences(start, found.jacobian, style.differences));
+  return solve(problem, start, options, style);
 }
 
-FitSummary fit_growing(Evaluator& evaluator, const Hypothesis& start, FitOptions options,
+FitSummary fit_growing(ResidualSource& evaluator, const Hypothesis& start, FitOptions options,
                        std::span<const double> horizons) {
   FitSummary result;
   result.hypothesis = start;
@@ -373,7 +426,8 @@ FitSummary fit_growing(Evaluator& evaluator, const Hypothesis& start, FitOptions
   return result;
 }
 
-Scan scan(Evaluator& evaluator, std::span<const Hypothesis> starts, const FitOptions& options) {
+Scan scan(ResidualSource& evaluator, std::span<const Hypothesis> starts,
+          const FitOptions& options) {
   // By the data alone, and with no step of any fit. A start is not judged by what could become of
   // it, so this only parts valleys; what is best here may be the worse one in the end.
   const Eigen::MatrixXd residuals = evaluator.residuals(starts, options);

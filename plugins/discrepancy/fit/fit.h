@@ -9,7 +9,9 @@
 
 #include "plugins/discrepancy/settings/diagnosis_settings.h"
 #include "plugins/discrepancy/simulate/data_set.h"
+#include "plugins/discrepancy/simulate/differences.h"
 #include "plugins/discrepancy/simulate/hypothesis.h"
+#include "plugins/discrepancy/simulate/misfit.h"
 
 namespace pedicel::discrepancy {
 
@@ -28,6 +30,7 @@ struct FitSummary {
   Hypothesis hypothesis;     ///< with the values found
   double cost = 0.0;         ///< 1/2 sum of squared whitened residuals (priors not counted)
   Eigen::VectorXd residual;  ///< whitened, see DataSet
+  int samples = 0;           ///< entries of it that were measured
   Eigen::MatrixXd jacobian;  ///< of the whitened prediction by the unknowns: residual = data - it
   Eigen::VectorXd standard_error;  ///< of the unknowns, infinite where the data leave one open
   double condition = 0.0;          ///< of the scaled Jacobian
@@ -35,7 +38,18 @@ struct FitSummary {
   double spread = 1.0;             ///< by which data weighed less against what is known beforehand
   bool converged = false;
   std::string why = "not run";  ///< why it stopped
+
+  Misfit misfit() const { return {residual.squaredNorm(), samples}; }
 };
+
+/// Of the unknowns of a fit, were the noise white and all there is: (J^T J + priors)^-1, with the
+/// unknowns brought to one scale first. Those that move nothing have no rows in it.
+struct Covariance {
+  Eigen::MatrixXd matrix;  ///< zero in the rows and columns of what is open
+  std::vector<int> open;   ///< unknowns that neither data nor priors show
+  double condition = 1.0;  ///< of the scaled Jacobian; infinite where one is open
+};
+Covariance covariance_of(const FitSummary& fit);
 
 /// What is known beforehand of a model's unknowns, as more rows of its least squares: residuals
 /// `left`, whose derivatives by the unknowns are -`weight` (0 where nothing is known).
@@ -74,14 +88,45 @@ struct Corrections {
   void add_rest(double share, int trial, Prediction& prediction) const;
 };
 
+/// How least squares go where the models of a kind of experiment need it.
+struct FitStyle {
+  DifferenceRule differences{};
+  /// Derivatives are simulated with each point. False: where they are asked for, as each of them is
+  /// a simulation of its own.
+  bool derivatives_at_once = true;
+  /// Where a model misses the data by many times the noise, the data weigh less against what is
+  /// known beforehand.
+  bool weighs_priors = true;
+  bool goes_up = true;      ///< steps may be tried that go up at first (non-monotonic)
+  bool by_columns = false;  ///< by orthogonal columns, and not by normal equations
+};
+
+/// Residuals of models over the same trials, side by side: all that a fit asks for.
+class ResidualSource {
+ public:
+  virtual ~ResidualSource() = default;
+  /// Whitened, one column a hypothesis.
+  virtual Eigen::MatrixXd residuals(std::span<const Hypothesis> hypotheses,
+                                    const FitOptions& options) = 0;
+  /// Entries of a residual over these trials, measured or not.
+  virtual int size(std::span<const int> trials) const = 0;
+  /// Entries that hold a sample up to the share `horizon` of each trial's duration.
+  virtual int samples(std::span<const int> trials, double horizon) const = 0;
+  virtual FitStyle style(const Hypothesis&) const { return {}; }
+};
+
 /// Simulates a list of hypotheses over the same trials at once.
-class Evaluator {
+class Evaluator : public ResidualSource {
  public:
   Evaluator(Simulator& simulator, const DataSet& data, const Corrections* corrections = nullptr)
       : simulator_(&simulator), data_(&data), corrections_(corrections) {}
 
-  /// Whitened residuals, one column a hypothesis.
-  Eigen::MatrixXd residuals(std::span<const Hypothesis> hypotheses, const FitOptions& options);
+  Eigen::MatrixXd residuals(std::span<const Hypothesis> hypotheses,
+                            const FitOptions& options) override;
+  int size(std::span<const int> trials) const override { return data_->size(trials); }
+  int samples(std::span<const int> trials, double horizon) const override {
+    return data_->samples(trials, horizon);
+  }
   /// Predictions with their corrections: [hypothesis][trial of options.trials].
   std::vector<std::vector<Prediction>> predictions(std::span<const Hypothesis> hypotheses,
                                                    const FitOptions& options);
@@ -98,14 +143,17 @@ class Evaluator {
 /// by differences: a point and all its derivatives are simulated side by side.
 /// `known` are derivatives by the first unknowns at a model near by, where there is one: they tell
 /// how large the differences should be.
-FitSummary fit(Evaluator& evaluator, const Hypothesis& start, const FitOptions& options,
+FitSummary fit(ResidualSource& evaluator, const Hypothesis& start, const FitOptions& options,
                const Eigen::MatrixXd& known = {});
 
+/// What a model predicts and how that changes with its unknowns, without a fit.
+FitSummary look_at(ResidualSource& evaluator, const Hypothesis& model, const FitOptions& options);
+
 /// Continues where another fit of the same hypothesis ended.
-FitSummary refit(Evaluator& evaluator, const FitSummary& found, const FitOptions& options);
+FitSummary refit(ResidualSource& evaluator, const FitSummary& found, const FitOptions& options);
 
 /// Fits over growing shares of the records, so that oscillations do not slip by a period.
-FitSummary fit_growing(Evaluator& evaluator, const Hypothesis& start, FitOptions options,
+FitSummary fit_growing(ResidualSource& evaluator, const Hypothesis& start, FitOptions options,
                        std::span<const double> horizons);
 
 /// The hypothesis with the least cost, and its cost.
@@ -113,7 +161,7 @@ struct Scan {
   int best = 0;
   std::vector<double> cost;
 };
-Scan scan(Evaluator& evaluator, std::span<const Hypothesis> starts, const FitOptions& options);
+Scan scan(ResidualSource& evaluator, std::span<const Hypothesis> starts, const FitOptions& options);
 
 /// The step of a model's unknowns that takes most of a change of the prediction, as far as that
 /// goes with what is known of them beforehand.

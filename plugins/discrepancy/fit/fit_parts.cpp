@@ -120,6 +120,7 @@ Json of_fit(const FitSummary& fit) {
                {"condition", of_number(fit.condition)},
                {"at_bound", fit.at_bound},
                {"spread", of_number(fit.spread)},
+               {"samples", fit.samples},
                {"converged", fit.converged},
                {"why", fit.why}};
   for (const plant::Effect& effect : fit.hypothesis.effects)
@@ -140,6 +141,7 @@ FitSummary to_fit(const Json& json) {
   fit.condition = to_number(json.at("condition"));
   fit.at_bound = json.at("at_bound").get<std::vector<int>>();
   fit.spread = to_number(json.at("spread"));
+  fit.samples = json.at("samples");
   fit.converged = json.at("converged");
   fit.why = json.at("why");
   return fit;

@@ -32,7 +32,7 @@ std::vector<Variant> variants_of(const std::vector<Hypothesis>& models) {
 Experiment empty_copy(const Experiment& experiment) {
   // Not its trials, nor what went wrong in them.
   Experiment copy;
-  copy.plant = experiment.plant();
+  copy.plant() = experiment.plant();
   copy.markers = experiment.markers;
   copy.noise = experiment.noise;
   copy.effects = experiment.effects;
@@ -259,7 +259,7 @@ NextExperiment next_experiment(const Experiment& experiment, const DataSet& data
   // A plant that is turned is another experiment: gravity bends it along another side of itself. It
   // tells its own shape from what acts from outside.
   Experiment upright = empty_copy(experiment), turned = upright;
-  turned.plant = turned_plant(experiment.plant());
+  turned.plant() = turned_plant(experiment.plant());
   const Vec3 gravity =
       experiment.trials.empty() ? Vec3(0, 0, -9.81) : experiment.trials.front().gravity;
   if (!find_rest(upright, variants[0], scales, options.numerics, gravity, simulations,

@@ -89,9 +89,9 @@ const FitSummary* alternative(const Findings& findings, const Diagnosis& diagnos
 }
 
 /// Shares over some trials.
-class Misfit {
+class SharedMisfit {
  public:
-  Misfit(Evaluator& evaluator, const FitOptions& options, std::vector<int> trials)
+  SharedMisfit(Evaluator& evaluator, const FitOptions& options, std::vector<int> trials)
       : evaluator_(evaluator), options_(options) {
     options_.trials = std::move(trials);
     if (options_.trials.empty()) return;
@@ -282,9 +282,9 @@ void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOption
   std::ranges::for_each(verdict.causes, explain);
   if (is_ambiguous) std::ranges::for_each(parameters, explain);
 
-  Misfit fitted(evaluator, options, diagnosis.fit_trials);
+  SharedMisfit fitted(evaluator, options, diagnosis.fit_trials);
   // Refits above saw the fitted trials only, so this share is honest.
-  Misfit held_out(evaluator, options, diagnosis.check_trials);
+  SharedMisfit held_out(evaluator, options, diagnosis.check_trials);
   // Only now may the list be sorted: until here each entry points into it.
   for (const Explained& one : all) {
     one.cause->share = {fitted.share(one), held_out.share(one)};

@@ -456,9 +456,9 @@ OutsideForce find_outside_force(SceneEvaluator& evaluator, const std::vector<pla
   for (const int t : trials) {
     const SceneSimulator::Request request{&variant, t};
     const SceneReadings readings = evaluator.simulator().run({&request, 1}).front();
-    SceneDataSet::Sum sum;
+    Misfit sum;
     // All kinds of channels together, in noise units.
-    for (const SceneDataSet::Sum& one : evaluator.data().sums(t, readings)) sum += one;
+    for (const Misfit& one : evaluator.data().sums(t, readings)) sum += one;
     // By the sum and not by the mean: a long trial with a short pull has a small mean, and the pull
     // is what is looked for.
     if (sum.square > most) {

@@ -16,7 +16,7 @@ constexpr std::size_t most_at_once = 16;  // models, whose readings are all kept
 /// One start of a cause and the models that tell of it.
 struct Start {
   std::string name;
-  const SceneFitResult* base = nullptr;
+  const FitSummary* base = nullptr;
   SceneFit fit;
   Hypothesis model;  // the base and the cause
   bool vanishes = false;
@@ -62,8 +62,8 @@ Eigen::VectorXd linear_step(const Eigen::VectorXd& residual, const Eigen::Matrix
 
 class Screen {
  public:
-  Screen(SceneEvaluator& evaluator, const SceneFitResult& base, std::span<const int> trials)
-      : evaluator_(evaluator), base_(base), trials_(trials) {}
+  Screen(SceneEvaluator& evaluator, const FitSummary& base, const std::vector<int>& trials)
+      : evaluator_(evaluator), base_(base), options_(evaluator.options(trials)) {}
 
   void add(const std::string& name, const SceneFit& fit) {
     Start start = begun(base_, name, fit);
@@ -95,12 +95,12 @@ class Screen {
   }
 
  private:
-  Start begun(const SceneFitResult& base, const std::string& name, const SceneFit& fit) {
+  Start begun(const FitSummary& base, const std::string& name, const SceneFit& fit) {
     Start start;
     start.name = name;
     start.base = &base;
     start.fit = fit;
-    start.model = base.model;
+    start.model = base.hypothesis;
     // On top of all that the base has, whose numbers stay free beside it.
     Hypothesis added;
     added.effects = {fit.effect};
@@ -116,7 +116,7 @@ class Screen {
     start.is_bare = false;
     const Eigen::VectorXd u = start.model.unknowns(), high = start.model.high();
     // The base's own numbers were differentiated with it, once for all causes.
-    for (int p = start.base->model.size(); p < start.model.size(); ++p) {
+    for (int p = start.base->hypothesis.size(); p < start.model.size(); ++p) {
       // A part of what is known: derivatives of contacts need more than a trifle.
       const SceneFitSettings& how = evaluator_.settings().fit;
       double step = start.model.free[static_cast<std::size_t>(p)].logarithmic
@@ -144,7 +144,7 @@ class Screen {
          first += most_at_once) {
       const std::size_t count = std::min(most_at_once, wanted_.size() - first);
       all_.middleCols(static_cast<long>(first), static_cast<long>(count)) =
-          evaluator_.residuals(std::span(wanted_).subspan(first, count), trials_);
+          evaluator_.residuals(std::span(wanted_).subspan(first, count), options_);
     }
   }
 
@@ -156,7 +156,7 @@ class Screen {
     for (std::size_t s = 0; s < starts_.size(); ++s)
       if (starts_[s].is_bare) by_cost.emplace(cost_by_size(all_.col(starts_[s].at)), s);
     const SceneSearchSettings& how = evaluator_.settings().search;
-    const double excess = SceneDataSet::beyond_noise(base_.sum);
+    const double excess = SceneDataSet::beyond_noise(base_.misfit());
     // Where no cause could gain enough, sizes of what could hide are all that is wanted.
     if (excess * excess < how.least_gain) return;
     std::map<std::string, int> of_cause;
@@ -173,10 +173,10 @@ class Screen {
   // makes a modulus of a third, and from there the linear does not find the way back. So effects of
   // plants are begun where these are what the files say, too.
   void begin_at_files(const std::vector<std::size_t>& best) {
-    Hypothesis model = base_.model;
+    Hypothesis model = base_.hypothesis;
     for (const effects::EffectDefinition* factor : effects::material_factors())
       if (const int p = model.factor_on(factor->name); p >= 0) model.set_value(p, 1.0);
-    files_ = look_at(evaluator_, model, trials_);
+    files_ = look_at(evaluator_, model, options_);
     // Starts are small, and a root that is softer than its stem is far from them: each is looked at
     // in other sizes, and differentiated in the best.
     std::vector<std::vector<Start>> sizes;
@@ -209,11 +209,11 @@ class Screen {
 
   bool has_left_files() const {
     const double far = evaluator_.settings().search.left_files;
-    return std::ranges::any_of(effects::material_factors(),
-                               [&](const effects::EffectDefinition* factor) {
-                                 const int p = base_.model.factor_on(factor->name);
-                                 return p >= 0 && std::abs(std::log(base_.model.value(p))) > far;
-                               });
+    return std::ranges::any_of(
+        effects::material_factors(), [&](const effects::EffectDefinition* factor) {
+          const int p = base_.hypothesis.factor_on(factor->name);
+          return p >= 0 && std::abs(std::log(base_.hypothesis.value(p))) > far;
+        });
   }
 
   // What is left where the base's numbers and the size of a change are free.
@@ -232,7 +232,7 @@ class Screen {
   }
 
   ScreenedCause judged(const Start& start) const {
-    const SceneFitResult& base = *start.base;
+    const FitSummary& base = *start.base;
     const Eigen::VectorXd here = start.at < 0 ? base.residual : Eigen::VectorXd(all_.col(start.at));
     const long own = static_cast<long>(start.moved.size()), old = base.jacobian.cols();
     Eigen::MatrixXd jacobian(here.size(), old + own);
@@ -245,7 +245,7 @@ class Screen {
     ScreenedCause out;
     out.name = start.name;
     out.model = start.model;
-    out.begun = base.model.unknowns();
+    out.begun = base.hypothesis.unknowns();
     // Of all numbers together. A cause whose own numbers take the whole residual, with the base
     // held, would win against one that the base makes room for.
     const Eigen::VectorXd step = linear_step(here, jacobian, start.model, out.linear_cost);
@@ -256,14 +256,14 @@ class Screen {
   }
 
   // What is left of a change beyond what a base's own numbers can make.
-  static Eigen::VectorXd without(const SceneFitResult& base, const Eigen::VectorXd& change) {
+  static Eigen::VectorXd without(const FitSummary& base, const Eigen::VectorXd& change) {
     const Eigen::MatrixXd& j = base.jacobian;
     Eigen::VectorXd left = change;
     if (j.cols() > 0) {
       Eigen::MatrixXd normal = j.transpose() * j;
       for (long p = 0; p < j.cols(); ++p) {
         // With what is known of them: a density may not go anywhere to imitate a payload.
-        const double width = base.model.free[static_cast<std::size_t>(p)].width();
+        const double width = base.hypothesis.free[static_cast<std::size_t>(p)].width();
         normal(p, p) += 1.0 / (width * width);
       }
       // What the baseline's numbers can imitate is not seen, however large it is.
@@ -275,13 +275,13 @@ class Screen {
   // Noise units RMS, the unit in which misfits are told, so that one is compared with the other.
   double clear_of_base(const Eigen::VectorXd& change) const {
     return without(base_, change).norm() /
-           std::sqrt(std::max(1.0, static_cast<double>(base_.sum.count)));
+           std::sqrt(std::max(1.0, static_cast<double>(base_.misfit().count)));
   }
 
   SeenFrom seen_from(const Start& start) const {
     SeenFrom out;
     out.name = start.name;
-    const int old = base_.model.size();
+    const int old = base_.hypothesis.size();
     for (int p = old; p < start.model.size(); ++p) {
       const effects::FreeParameter& free = start.model.free[static_cast<std::size_t>(p)];
       // Only numbers with a value at which the cause is gone have a size.
@@ -332,9 +332,9 @@ class Screen {
   }
 
   SceneEvaluator& evaluator_;
-  const SceneFitResult& base_;
-  SceneFitResult files_;  // of the base's model with the files' own material
-  std::span<const int> trials_;
+  const FitSummary& base_;
+  FitSummary files_;  // of the base's model with the files' own material
+  FitOptions options_;
   std::vector<Hypothesis> wanted_;
   Eigen::MatrixXd all_;  // residuals of what is wanted
   std::vector<Start> starts_;
@@ -349,9 +349,10 @@ double SeenFrom::size(double noise_units) const {
   return vanishes == effects::Vanishes::at_infinity ? 1.0 / way : way;
 }
 
-std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneFitResult& base,
+std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const FitSummary& base,
                                          const std::vector<std::string>& has,
-                                         std::span<const int> trials, std::vector<SeenFrom>* seen) {
+                                         const std::vector<int>& trials,
+                                         std::vector<SeenFrom>* seen) {
   Screen screen(evaluator, base, trials);
   const Experiment& experiment = evaluator.simulator().experiment();
   for (const SceneEffectDefinition& definition : scene_effect_definitions()) {
@@ -362,13 +363,14 @@ std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneF
     for (const SceneFit& start : starts_of(definition, {experiment, evaluator.settings()})) {
       // An unseen plant's place is in the base already. By its words as well: the place of another
       // plant is another thing.
-      const bool in_base = std::ranges::any_of(base.model.effects, [&](const plant::Effect& one) {
-        return one.name == start.effect.name && one.words == start.effect.words;
-      });
+      const bool in_base =
+          std::ranges::any_of(base.hypothesis.effects, [&](const plant::Effect& one) {
+            return one.name == start.effect.name && one.words == start.effect.words;
+          });
       if (!in_base) screen.add(definition.name, start);
     }
   }
-  for (const SceneFit& start : plant_starts(experiment, base.model.effects))
+  for (const SceneFit& start : plant_starts(experiment, base.hypothesis.effects))
     if (std::ranges::find(has, start.effect.name) == has.end())
       screen.add_bare(start.effect.name, start);
   return screen.run(seen);

@@ -33,9 +33,9 @@ struct SeenFrom {
 /// and the derivatives of its numbers there, side by side, on top of the base's own derivatives.
 /// Effects of plants are also begun where the base's factors on the material are those of the
 /// files. Best first. `seen`: how large each would have to be.
-std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const SceneFitResult& base,
+std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const FitSummary& base,
                                          const std::vector<std::string>& has,
-                                         std::span<const int> trials,
+                                         const std::vector<int>& trials,
                                          std::vector<SeenFrom>* seen = nullptr);
 
 }  // namespace pedicel::discrepancy

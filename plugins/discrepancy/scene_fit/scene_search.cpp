@@ -13,35 +13,37 @@ namespace pedicel::discrepancy {
 namespace {
 
 // The Bayesian information criterion, halved: each number costs 1/2 ln n nats.
-double cost_of(const SceneFitResult& fit) {
+double cost_of(const FitSummary& fit) {
   // The verdict tells this as evidence. The search itself weighs by score(), because two solvers
   // differ by more than nats count.
-  return 0.5 * fit.sum.square +
-         0.5 * fit.model.size() * std::log(std::max(2.0, static_cast<double>(fit.sum.count)));
+  return 0.5 * fit.misfit().square +
+         0.5 * fit.hypothesis.size() *
+             std::log(std::max(2.0, static_cast<double>(fit.misfit().count)));
 }
 
 double square(double x) {
   return x * x;
 }
 
-double excess_of(double cost, const SceneDataSet::Sum& sum) {
+double excess_of(double cost, const Misfit& sum) {
   // A cost is half of a sum of squares.
   return SceneDataSet::beyond_noise({2.0 * cost, sum.count});
 }
 
 // Effects of the baseline that left what the files say: beyond what their numbers are sure of, and
 // what a ruler says.
-std::vector<std::string> moved(const SceneFitResult& fit, const SceneSearchSettings& how) {
+std::vector<std::string> moved(const FitSummary& fit, const SceneSearchSettings& how) {
   std::vector<std::string> names;
-  for (int p = 0; p < fit.model.size(); ++p) {
-    const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
-    const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
+  for (int p = 0; p < fit.hypothesis.size(); ++p) {
+    const effects::FreeParameter& free = fit.hypothesis.free[static_cast<std::size_t>(p)];
+    const plant::Effect& effect = fit.hypothesis.effects[static_cast<std::size_t>(free.effect)];
     // Once each, however many of its components went.
     if (!told_of_baseline(effect, free) || std::ranges::find(names, effect.name) != names.end())
       continue;
     const double error = std::hypot(fit.standard_error[p] * free.scale, how.least_displacement);
     // Its files' value is zero, so the number itself is how far it went.
-    if (std::abs(fit.model.value(p)) > how.named_deviations * error) names.push_back(effect.name);
+    if (std::abs(fit.hypothesis.value(p)) > how.named_deviations * error)
+      names.push_back(effect.name);
   }
   return names;
 }
@@ -98,7 +100,7 @@ std::vector<ScreenedCause> in_turns(const std::vector<ScreenedCause>& screened) 
 // By how much worse the other is does not say so, since two solvers differ by more. But were the
 // other right, what solvers differ by would have to look just as the two models differ.
 // `numbers`: of the first one's own, beside the baseline's.
-bool speaks_for(const SceneFitResult& one, const SceneFitResult& other, int numbers,
+bool speaks_for(const FitSummary& one, const FitSummary& other, int numbers,
                 const SceneSearchSettings& how) {
   const Between data = between(one, other);
   const double limit = how.named_deviations * data.error, square_error = square(data.error);
@@ -110,15 +112,15 @@ bool speaks_for(const SceneFitResult& one, const SceneFitResult& other, int numb
 }
 
 // Numbers beside the causes that left what is known of them.
-std::vector<std::string> material_of(const SceneFitResult& fit, const Experiment& experiment,
+std::vector<std::string> material_of(const FitSummary& fit, const Experiment& experiment,
                                      const SceneSearchSettings& how) {
   std::vector<std::string> names;
   // A number of the plant that goes far in a fit that explains the data is a finding beside the
   // cause, and not its price.
   for (const effects::EffectDefinition* one : effects::material_factors()) {
-    const int p = fit.model.factor_on(one->name);
+    const int p = fit.hypothesis.factor_on(one->name);
     if (p < 0) continue;
-    const double off = std::log(fit.model.value(p));
+    const double off = std::log(fit.hypothesis.value(p));
     const double error = std::hypot(fit.standard_error[p], allowance(*one->material, how),
                                     stated_of(experiment, *one->material));
     // In logarithms: a factor of two and one of a half are equally far off.
@@ -162,15 +164,15 @@ class Search {
     tell("simulating the scene as the files say", 0.0);
     const Hypothesis plain;
     // First of all: shares and verdicts are told against what the files say.
-    const SceneFitResult nominal = look_at(evaluator_, plain, options_.trials);
-    found_.nominal_excess = SceneDataSet::beyond_noise(nominal.sum);
+    const FitSummary nominal = looked_at(plain);
+    found_.nominal_excess = SceneDataSet::beyond_noise(nominal.misfit());
     found_.nominal_check = held_out(plain);
     tell("fitting modulus, density and damping", 0.05);
     found_.baseline = fit(first_baseline(), how_.baseline_iterations, options_.trials);
     // With a place among its numbers (the three are modulus, density and damping) a baseline has a
     // long way, and everything after is judged against it.
-    if (!found_.baseline.converged && found_.baseline.model.size() > 3)
-      found_.baseline = fit(found_.baseline.model, how_.baseline_iterations, options_.trials);
+    if (!found_.baseline.converged && found_.baseline.hypothesis.size() > 3)
+      found_.baseline = fit(found_.baseline.hypothesis, how_.baseline_iterations, options_.trials);
     follow_pushes();
     judge_baseline();
     renew_at_baseline();
@@ -201,7 +203,7 @@ class Search {
     }
     // Every plant is seen.
     if (starts.size() == 1) return starts.front();
-    const Eigen::MatrixXd left = evaluator_.residuals(starts, options_.trials);
+    const Eigen::MatrixXd left = evaluator_.residuals(starts, evaluator_.options(options_.trials));
     long best = 0;
     // All at once, one simulation a place. The fit goes on from the best one.
     left.colwise().squaredNorm().minCoeff(&best);
@@ -214,7 +216,7 @@ class Search {
   void follow_pushes() {
     if (!options_.push_shift) return;
     for (int again = 0; again < how_.renewals && !stopped(); ++again) {
-      Hypothesis moved = found_.baseline.model;
+      Hypothesis moved = found_.baseline.hypothesis;
       std::vector<int> places;
       for (int p = 0; p < moved.size(); ++p) {
         const effects::FreeParameter& free = moved.free[static_cast<std::size_t>(p)];
@@ -229,16 +231,16 @@ class Search {
       for (const int p : places)
         moved.set_value(p,
                         moved.value(p) + shift[moved.free[static_cast<std::size_t>(p)].component]);
-      SceneFitResult next = fit(moved, how_.baseline_iterations, options_.trials);
-      if (next.sum.square >= found_.baseline.sum.square) return;
+      FitSummary next = fit(moved, how_.baseline_iterations, options_.trials);
+      if (next.misfit().square >= found_.baseline.misfit().square) return;
       found_.baseline = std::move(next);
     }
   }
 
   void judge_baseline() {
     found_.baseline_cost = cost_of(found_.baseline);
-    found_.baseline_excess = SceneDataSet::beyond_noise(found_.baseline.sum);
-    found_.baseline_check = held_out(found_.baseline.model);
+    found_.baseline_excess = SceneDataSet::beyond_noise(found_.baseline.misfit());
+    found_.baseline_check = held_out(found_.baseline.hypothesis);
   }
 
   // Misfits can be compared only under one noise.
@@ -246,8 +248,7 @@ class Search {
     // What was told of the files' own model counts under the new noise, too: shares are of it.
     options_.renew_noise(effects);
     const Hypothesis plain;
-    found_.nominal_excess = SceneDataSet::beyond_noise(
-        evaluator_.sum(evaluator_.residuals({&plain, 1}, options_.trials).col(0), options_.trials));
+    found_.nominal_excess = SceneDataSet::beyond_noise(evaluator_.misfit(plain, options_.trials));
     found_.nominal_check = held_out(plain);
   }
 
@@ -255,13 +256,13 @@ class Search {
   // predictions do not know of themselves was taken at other times.
   void renew_at_baseline() {
     // More than modulus, density and damping: a place is among them.
-    if (!options_.renew_noise || found_.baseline.model.size() <= 3) return;
+    if (!options_.renew_noise || found_.baseline.hypothesis.size() <= 3) return;
     // What leaves nothing needs no other noise.
     if (found_.baseline_excess <= how_.floor) return;
     for (int again = 0; again < how_.renewals && !stopped(); ++again) {
       const double before = found_.baseline_excess;
-      renew_noise(found_.baseline.model.effects);
-      found_.baseline = fit(found_.baseline.model, how_.baseline_iterations, options_.trials);
+      renew_noise(found_.baseline.hypothesis.effects);
+      found_.baseline = fit(found_.baseline.hypothesis, how_.baseline_iterations, options_.trials);
       judge_baseline();
       if (found_.baseline_excess <= how_.floor ||
           // Where it hardly helped any more, the noise is that of the right touches by now.
@@ -282,16 +283,16 @@ class Search {
     // cost as much as the best.
     const double near = how_.behind * std::max(best.excess, allowed());
     tell("taking the noise of predictions anew", 0.55);
-    const std::vector<plant::Effect> effects = best.fit.model.effects;
+    const std::vector<plant::Effect> effects = best.fit.hypothesis.effects;
     renew_noise(effects);
     // Not fitted again: it only has to be judged under the same noise as the others.
-    found_.baseline = look_at(evaluator_, found_.baseline.model, options_.trials);
+    found_.baseline = looked_at(found_.baseline.hypothesis);
     judge_baseline();
     // All, for the same reason as the baseline: two noises cannot be compared.
     for (SceneCandidate& one : found_.candidates) {
       if (stopped()) return;
-      one.fit = one.excess <= near ? fit(one.fit.model, how_.last_iterations, options_.trials)
-                                   : look_at(evaluator_, one.fit.model, options_.trials);
+      one.fit = one.excess <= near ? fit(one.fit.hypothesis, how_.last_iterations, options_.trials)
+                                   : looked_at(one.fit.hypothesis);
       judge(one);
     }
     sort_candidates();
@@ -325,8 +326,8 @@ class Search {
   }
 
   // Extends a model by each cause that it has not; refits those with the least linear cost.
-  void add_round(const SceneFitResult& base, double base_excess,
-                 const std::vector<std::string>& names, double from, double to) {
+  void add_round(const FitSummary& base, double base_excess, const std::vector<std::string>& names,
+                 double from, double to) {
     tell("looking at all causes", from);
     // Beside the baseline, once: what else could hide is asked of the data and not of a model.
     std::vector<SeenFrom>* seen = found_.seen.empty() ? &found_.seen : nullptr;
@@ -335,7 +336,8 @@ class Search {
     // The linear cost is mostly too good. A cause that would not even gain enough by it is not
     // worth a fit.
     std::erase_if(screened, [&](const ScreenedCause& one) {
-      return square(base_excess) - square(excess_of(one.linear_cost, base.sum)) < how_.least_gain;
+      return square(base_excess) - square(excess_of(one.linear_cost, base.misfit())) <
+             how_.least_gain;
     });
     screened = best_of_each(tried(screened));
     double best = base_excess;
@@ -346,7 +348,7 @@ class Search {
       if (done == most || stopped()) break;
       // They are in order, so all that follow are farther behind.
       if (done > 0 &&
-          excess_of(one.linear_cost, base.sum) > how_.behind * std::max(best, allowed()))
+          excess_of(one.linear_cost, base.misfit()) > how_.behind * std::max(best, allowed()))
         break;
       tell(
           "refitting with " + one.name,
@@ -373,7 +375,7 @@ class Search {
     // Where it leaves too much it may not have arrived, unless it leaves most of it.
     if (!candidate.fit.converged && candidate.excess > allowed() &&
         candidate.excess < how_.halfway * base_excess && !stopped()) {
-      candidate.fit = fit(candidate.fit.model, how_.last_iterations, options_.trials);
+      candidate.fit = fit(candidate.fit.hypothesis, how_.last_iterations, options_.trials);
       judge(candidate);
     }
     // Kept also where it does badly, for what is told of causes that came near.
@@ -391,7 +393,7 @@ class Search {
       // As many again, so that the time is at most twice as long.
       if (done == most || found_.candidates.empty() || stopped()) return;
       // Asked at each, as a plainer one may lead by now.
-      if (one.model.size() >= found_.candidates.front().fit.model.size()) continue;
+      if (one.model.size() >= found_.candidates.front().fit.hypothesis.size()) continue;
       found_.candidates.push_back(refitted(one, names, base_excess));
       sort_candidates();
       ++done;
@@ -405,8 +407,8 @@ class Search {
 
   void judge(SceneCandidate& candidate) {
     candidate.cost = cost_of(candidate.fit);
-    candidate.excess = SceneDataSet::beyond_noise(candidate.fit.sum);
-    candidate.check_excess = held_out(candidate.fit.model);
+    candidate.excess = SceneDataSet::beyond_noise(candidate.fit.misfit());
+    candidate.check_excess = held_out(candidate.fit.hypothesis);
   }
 
   // Fewer numbers win where more hardly do better.
@@ -415,7 +417,7 @@ class Search {
     // any count of samples makes of one number, and six numbers of a camera's pose imitate one of
     // its focal length.
     return square(one.excess) +
-           how_.number_price * one.fit.model.size() * (1.0 + square(one.excess));
+           how_.number_price * one.fit.hypothesis.size() * (1.0 + square(one.excess));
   }
 
   // Linear costs are too good: whoever keeps more of one, at the whole step or a shorter one, goes
@@ -443,7 +445,8 @@ class Search {
         models.push_back(model);
       }
     if (models.empty()) return screened;
-    const Eigen::MatrixXd residuals = evaluator_.residuals(models, options_.trials);
+    const Eigen::MatrixXd residuals =
+        evaluator_.residuals(models, evaluator_.options(options_.trials));
     for (std::size_t i = 0; i < screened.size(); ++i) {
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t s = 0; s < std::size(shares); ++s) {
@@ -474,18 +477,18 @@ class Search {
     found_.candidates = std::move(kept);
   }
 
-  SceneFitResult fit(const Hypothesis& start, int iterations, const std::vector<int>& trials) {
-    SceneFitOptions how;
-    how.trials = trials;
-    how.iterations = iterations;
-    return fit_scene(evaluator_, start, how);
+  FitSummary fit(const Hypothesis& start, int iterations, const std::vector<int>& trials) {
+    return fit_scene(evaluator_, start, evaluator_.options(trials, iterations));
+  }
+
+  FitSummary looked_at(const Hypothesis& model) {
+    return discrepancy::look_at(evaluator_, model, evaluator_.options(options_.trials));
   }
 
   std::optional<double> held_out(const Hypothesis& model) {
     // Not zero: nothing held out is no proof.
     if (options_.check.empty()) return std::nullopt;
-    const Eigen::MatrixXd residual = evaluator_.residuals({&model, 1}, options_.check);
-    return SceneDataSet::beyond_noise(evaluator_.sum(residual.col(0), options_.check));
+    return SceneDataSet::beyond_noise(evaluator_.misfit(model, options_.check));
   }
 
   void conclude() {
@@ -524,7 +527,7 @@ class Search {
         found_.baseline_excess > how_.clean_allowance * how_.floor)
       return false;
     tell("refitting the baseline with a finer mesh", 0.88);
-    const FinerFit fine = options_.refit_finely(found_.baseline.model);
+    const FinerFit fine = options_.refit_finely(found_.baseline.hypothesis);
     if (!is_adequate(fine.excess, fine.check_excess)) return false;
     found_.baseline = fine.fit;
     found_.baseline_excess = fine.excess;
@@ -571,9 +574,9 @@ class Search {
     const std::vector<std::size_t> all = near;
     std::erase_if(near, [&](std::size_t i) {
       return std::ranges::any_of(all, [&](std::size_t other) {
-        const SceneFitResult& one = found_.candidates[other].fit;
+        const FitSummary& one = found_.candidates[other].fit;
         return speaks_for(one, found_.candidates[i].fit,
-                          one.model.size() - found_.baseline.model.size(), how_);
+                          one.hypothesis.size() - found_.baseline.hypothesis.size(), how_);
       });
     });
     // Of three each may speak against the next one: then none does.
@@ -596,7 +599,7 @@ class Search {
     refit_what_is_clean(all);
     if (stopped()) return;
     found_.outside =
-        find_outside_force(evaluator_, found_.baseline.model.effects, all, options_.threads);
+        find_outside_force(evaluator_, found_.baseline.hypothesis.effects, all, options_.threads);
   }
 
   // A trial that the material alone explains is one in which nothing else acts.
@@ -605,16 +608,16 @@ class Search {
       if (stopped()) return;
       // Each by itself. Together with a trial in which something else acts no trial would be
       // explained.
-      SceneFitResult own =
+      FitSummary own =
           fit(scene_baseline(experiment_, evaluator_.settings()), how_.first_iterations, {t});
-      if (SceneDataSet::beyond_noise(own.sum) > how_.clean_allowance * how_.floor) continue;
+      if (SceneDataSet::beyond_noise(own.misfit()) > how_.clean_allowance * how_.floor) continue;
       found_.clean.push_back(t);
     }
     if (found_.clean.empty()) return;
-    const SceneFitResult clean = fit(scene_baseline(experiment_, evaluator_.settings()),
-                                     how_.baseline_iterations, found_.clean);
+    const FitSummary clean = fit(scene_baseline(experiment_, evaluator_.settings()),
+                                 how_.baseline_iterations, found_.clean);
     // Each of them alone was explained by other numbers: then no one plant explains them.
-    if (SceneDataSet::beyond_noise(clean.sum) > how_.clean_allowance * how_.floor) {
+    if (SceneDataSet::beyond_noise(clean.misfit()) > how_.clean_allowance * how_.floor) {
       found_.clean.clear();
       return;
     }
@@ -633,14 +636,14 @@ class Search {
   SceneFindings found_;
 };
 
-std::string numbers_of(const SceneFitResult& fit) {
+std::string numbers_of(const FitSummary& fit) {
   std::string text;
-  for (int p = 0; p < fit.model.size(); ++p) {
-    const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
-    const double value = fit.model.value(p);
+  for (int p = 0; p < fit.hypothesis.size(); ++p) {
+    const effects::FreeParameter& free = fit.hypothesis.free[static_cast<std::size_t>(p)];
+    const double value = fit.hypothesis.value(p);
     const double error = fit.standard_error[p] * (free.logarithmic ? value : free.scale);
     text += (text.empty() ? "" : ", ") +
-            fit.model.effects[static_cast<std::size_t>(free.effect)].name + "." + free.name;
+            fit.hypothesis.effects[static_cast<std::size_t>(free.effect)].name + "." + free.name;
     if (free.component > 0 || free.name == "offset" || free.name == "rotation")
       text += std::string("[") + "xyz"[free.component] + "]";
     text += " " + io::format_number(value, 4) + " +- " + io::format_number(error, 2);

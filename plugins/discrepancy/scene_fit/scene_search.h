@@ -14,7 +14,7 @@ namespace pedicel::discrepancy {
 /// The baseline of a scene extended by causes, refitted in full.
 struct SceneCandidate {
   std::vector<std::string> names;  ///< of the causes
-  SceneFitResult fit;
+  FitSummary fit;
   double cost = 0.0;    ///< nats: half the sum of squares, and 1/2 ln n for each number
   double excess = 0.0;  ///< noise units, RMS beyond the noise
   std::optional<double> check_excess;  ///< the same on trials held out
@@ -22,7 +22,7 @@ struct SceneCandidate {
 
 /// A model that was refitted and judged with another mesh than the search has.
 struct FinerFit {
-  SceneFitResult fit;
+  FitSummary fit;
   double excess = 0.0;                 ///< noise units, RMS beyond the noise
   std::optional<double> check_excess;  ///< the same on trials held out
 };
@@ -46,7 +46,7 @@ struct SceneFindings {
   enum class Outcome { adequate, named, ambiguous, unknown };
   Outcome outcome = Outcome::adequate;
   double nominal_excess = 0.0;                          ///< noise units, of the files' own model
-  SceneFitResult baseline;                              ///< modulus, density and damping refitted
+  FitSummary baseline;                                  ///< modulus, density and damping refitted
   double baseline_cost = 0.0;                           ///< nats, as a candidate's
   double baseline_excess = 0.0;                         ///< noise units
   std::optional<double> nominal_check, baseline_check;  ///< the same on trials held out
@@ -62,7 +62,7 @@ struct SceneFindings {
 
   bool explained() const { return outcome == Outcome::named || outcome == Outcome::ambiguous; }
   /// The model that is told: with the causes, or the baseline.
-  const SceneFitResult& model() const {
+  const FitSummary& model() const {
     return explained() && !candidates.empty() ? candidates.front().fit : baseline;
   }
 };

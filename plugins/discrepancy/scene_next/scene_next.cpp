@@ -123,7 +123,7 @@ class Choice {
     plan_.noise = next_.noise;
     for (const OpenModel& one : models_) {
       next_.names.push_back(one.name);
-      variants_.push_back(variant_of(one.fit->model));
+      variants_.push_back(variant_of(one.fit->hypothesis));
     }
     for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t)
       old_samples_ += data.samples(t, always);
@@ -264,22 +264,22 @@ class Choice {
     Eigen::VectorXd step;  // of the unknowns
     std::vector<SceneVariant> moved;
   };
-  Spread spread_of(const SceneFitResult& fit) const {
+  Spread spread_of(const FitSummary& fit) const {
     Spread out;
-    const int n = fit.model.size();
+    const int n = fit.hypothesis.size();
     if (fit.jacobian.cols() != n || n == 0) {
       out.root.resize(0, 0);
       return out;
     }
     // What a model leaves counts as noise of its numbers.
     Eigen::MatrixXd normal =
-        fit.jacobian.transpose() * fit.jacobian / square(std::max(1.0, fit.sum.rms()));
+        fit.jacobian.transpose() * fit.jacobian / square(std::max(1.0, fit.misfit().rms()));
     for (int p = 0; p < n; ++p)
-      normal(p, p) += 1.0 / square(fit.model.free[static_cast<std::size_t>(p)].width());
+      normal(p, p) += 1.0 / square(fit.hypothesis.free[static_cast<std::size_t>(p)].width());
     const Eigen::MatrixXd covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
     out.root = covariance.llt().matrixL();
     out.step.resize(n);
-    const Eigen::VectorXd u = fit.model.unknowns(), high = fit.model.high();
+    const Eigen::VectorXd u = fit.hypothesis.unknowns(), high = fit.hypothesis.high();
     const SceneFitSettings& how = options_.settings.fit;
     for (int p = 0; p < n; ++p) {
       // As far as it may be off, where derivatives of a touch mean anything.
@@ -287,7 +287,7 @@ class Choice {
       out.step[p] = u[p] + step <= high[p] ? step : -step;
       Eigen::VectorXd moved = u;
       moved[p] += out.step[p];
-      Hypothesis model = fit.model;
+      Hypothesis model = fit.hypothesis;
       model.set_unknowns(moved);
       out.moved.push_back(variant_of(model));
     }
@@ -308,9 +308,9 @@ class Choice {
   // Noise units in all from which on the search no longer calls the two a tie.
   double enough(const Motion& one) const {
     const SceneSearchSettings& how = options_.settings.search;
-    const SceneFitResult &a = *models_.front().fit, &b = *models_[one.other].fit;
-    const double left = SceneDataSet::beyond_noise(a.sum);
-    const double numbers = std::abs(a.model.size() - b.model.size());
+    const FitSummary &a = *models_.front().fit, &b = *models_[one.other].fit;
+    const double left = SceneDataSet::beyond_noise(a.misfit());
+    const double numbers = std::abs(a.hypothesis.size() - b.hypothesis.size());
     return std::sqrt((how.least_tie + how.tie_share * square(left) + how.number_price * numbers) *
                      (old_samples_ + one.samples));
   }

@@ -36,7 +36,7 @@ struct SceneNext {
 /// A model that may be the right one.
 struct OpenModel {
   std::string name;
-  const SceneFitResult* fit = nullptr;
+  const FitSummary* fit = nullptr;
 };
 
 /// Those that the findings leave open, the likeliest first: what competes with the best, and what

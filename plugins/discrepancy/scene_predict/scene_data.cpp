@@ -187,14 +187,14 @@ std::vector<int> SceneDataSet::stretches(int trial, double length) const {
   return out;
 }
 
-std::array<SceneDataSet::Sum, scene_channels> SceneDataSet::sums(
-    int trial, const SceneReadings& readings) const {
-  std::array<Sum, scene_channels> sums;
+std::array<Misfit, scene_channels> SceneDataSet::sums(int trial,
+                                                      const SceneReadings& readings) const {
+  std::array<Misfit, scene_channels> sums;
   long place = 0;
   for_each_channel(
       experiment_->trials[static_cast<std::size_t>(trial)], &readings,
       [&](const Samples& samples, const Eigen::MatrixXd* predicted, long c, SceneChannel kind) {
-        Sum& sum = sums[static_cast<std::size_t>(kind)];
+        Misfit& sum = sums[static_cast<std::size_t>(kind)];
         for (int i = 0; i < samples.size(); ++i, ++place) {
           const double measured = samples.value(i, c);
           if (!std::isfinite(measured)) continue;
@@ -243,7 +243,7 @@ void SceneDataSet::widen(int trial, const SceneReadings& reference,
   weight_[static_cast<std::size_t>(trial)] = weight;
 }
 
-double SceneDataSet::beyond_noise(const Sum& sum) {
+double SceneDataSet::beyond_noise(const Misfit& sum) {
   const double mean = sum.count > 0 ? sum.square / sum.count : 0.0;
   return mean > 1.0 ? std::sqrt(mean - 1.0) : 0.0;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plugins/discrepancy/scene_predict/scene_observation.h"
+#include "plugins/discrepancy/simulate/misfit.h"
 
 namespace pedicel::discrepancy {
 
@@ -40,20 +41,10 @@ class SceneDataSet {
   /// kind say within `length` (s).
   std::vector<int> stretches(int trial, double length) const;
 
-  struct Sum {
-    double square = 0.0;
-    int count = 0;
-    double rms() const { return count > 0 ? std::sqrt(square / count) : 0.0; }
-    Sum& operator+=(const Sum& other) {
-      square += other.square;
-      count += other.count;
-      return *this;
-    }
-  };
   /// By kind.
-  std::array<Sum, scene_channels> sums(int trial, const SceneReadings& readings) const;
+  std::array<Misfit, scene_channels> sums(int trial, const SceneReadings& readings) const;
   /// RMS of a residual without the noise's own share: 0 where there is no more than that.
-  static double beyond_noise(const Sum& sum);
+  static double beyond_noise(const Misfit& sum);
 
  private:
   double weight(int trial, long place) const {

@@ -64,7 +64,7 @@ class Procedure {
   std::vector<double> misfits() const {
     std::vector<double> all;
     for (std::size_t t = 0; t < out_.nominal.size(); ++t) {
-      SceneDataSet::Sum sum;
+      Misfit sum;
       for (const auto& one : data_.sums(static_cast<int>(t), out_.nominal[t])) sum += one;
       all.push_back(SceneDataSet::beyond_noise(sum));
     }
@@ -116,14 +116,12 @@ class Procedure {
 
   FinerFit refitted_finely(const Hypothesis& model) {
     SceneEvaluator evaluator(fine_, data_, options_.settings);
-    SceneFitOptions how;
-    how.trials = out_.fit_trials;
-    how.iterations = options_.settings.search.polishing;
+    const FitOptions how = evaluator.options(out_.fit_trials, options_.settings.search.polishing);
     FinerFit fine{fit_scene(evaluator, model, how), 0.0, {}};
-    fine.excess = SceneDataSet::beyond_noise(fine.fit.sum);
+    fine.excess = SceneDataSet::beyond_noise(fine.fit.misfit());
     if (out_.check_trials.empty()) return fine;
-    const Eigen::MatrixXd left = evaluator.residuals({&fine.fit.model, 1}, out_.check_trials);
-    fine.check_excess = SceneDataSet::beyond_noise(evaluator.sum(left.col(0), out_.check_trials));
+    fine.check_excess =
+        SceneDataSet::beyond_noise(evaluator.misfit(fine.fit.hypothesis, out_.check_trials));
     return fine;
   }
 
@@ -135,14 +133,12 @@ class Procedure {
     // difference that no model makes.
     searched_ = found;
     SceneEvaluator evaluator(fine_, data_, options_.settings);
-    const auto refit = [&](SceneFitResult& fit) {
+    const auto refit = [&](FitSummary& fit) {
       if (stopped() || late()) return;
-      SceneFitOptions how;
-      how.trials = out_.fit_trials;
       // The search has found the valley. A finer mesh only moves its bottom a little, and each
       // iteration takes a simulation for each number.
-      how.iterations = options_.settings.search.polishing;
-      fit = fit_scene(evaluator, fit.model, how);
+      fit = fit_scene(evaluator, fit.hypothesis,
+                      evaluator.options(out_.fit_trials, options_.settings.search.polishing));
     };
     tell("refitting with a finer mesh", 0.85);
     // Where the baseline alone explains some trials, it was fitted to these. A refit to all would
@@ -152,29 +148,30 @@ class Procedure {
       // Where the noise of predictions is, depends on the model.
       // Touches are elsewhere in time by now. Misfits of all models are then taken with this one's
       // noise, so that they can be compared.
-      widen_noise(fine_, data_, {found.candidates.front().fit.model.effects});
+      widen_noise(fine_, data_, {found.candidates.front().fit.hypothesis.effects});
       refit(found.candidates.front().fit);
       doubt(found.candidates.front().fit);
     } else if (!keep_baseline) {
       // An unseen plant's place moves touches as a cause does.
-      if (found.baseline.model.size() > 3)
-        widen_noise(fine_, data_, {found.baseline.model.effects});
+      if (found.baseline.hypothesis.size() > 3)
+        widen_noise(fine_, data_, {found.baseline.hypothesis.effects});
       // Where the files are right the search's own mesh and step moved away from them.
-      const Hypothesis models[] = {found.baseline.model,
+      const Hypothesis models[] = {found.baseline.hypothesis,
                                    scene_baseline(experiment_, options_.settings)};
-      const Eigen::MatrixXd left = evaluator.residuals(models, out_.fit_trials);
-      if (left.col(1).squaredNorm() < left.col(0).squaredNorm()) found.baseline.model = models[1];
+      const Eigen::MatrixXd left = evaluator.residuals(models, evaluator.options(out_.fit_trials));
+      if (left.col(1).squaredNorm() < left.col(0).squaredNorm())
+        found.baseline.hypothesis = models[1];
       refit(found.baseline);
       doubt(found.baseline);
     }
-    out_.model = found.model().model.effects;
+    out_.model = found.model().hypothesis.effects;
     out_.extended = predictions_of(fine_, {out_.model});
     // Without a cause there is one model, and it is simulated once.
-    out_.refitted =
-        found.explained() ? predictions_of(fine_, {found.baseline.model.effects}) : out_.extended;
+    out_.refitted = found.explained() ? predictions_of(fine_, {found.baseline.hypothesis.effects})
+                                      : out_.extended;
   }
 
-  void doubt(SceneFitResult& fit) {
+  void doubt(FitSummary& fit) {
     if (stopped() || late()) return;
     std::vector<int> stretch;
     for (const int t : out_.fit_trials) {
@@ -184,20 +181,20 @@ class Procedure {
         stretch.push_back(next + one);
     }
     raise_errors(fit, stretch);
-    widen_errors(fit, doubts(fit.model.effects));
+    widen_errors(fit, doubts(fit.hypothesis.effects));
     doubt_place(fit);
   }
 
   // Of a plant that nothing shows both the fit and the wrench say where along the tool it is
   // pushed. What they differ by, neither knows: the valley is rough, and its floor hardly falls.
-  void doubt_place(SceneFitResult& fit) {
+  void doubt_place(FitSummary& fit) {
     std::optional<Vec3> shift;
-    for (int p = 0; p < fit.model.size() && p < fit.standard_error.size(); ++p) {
-      const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
-      if (!told_of_baseline(fit.model.effects[static_cast<std::size_t>(free.effect)], free))
+    for (int p = 0; p < fit.hypothesis.size() && p < fit.standard_error.size(); ++p) {
+      const effects::FreeParameter& free = fit.hypothesis.free[static_cast<std::size_t>(p)];
+      if (!told_of_baseline(fit.hypothesis.effects[static_cast<std::size_t>(free.effect)], free))
         continue;
       if (!shift)
-        shift = push_shift(fine_, fit.model.effects, data_.deviation(SceneChannel::force),
+        shift = push_shift(fine_, fit.hypothesis.effects, data_.deviation(SceneChannel::force),
                            options_.settings.robot);
       fit.standard_error[p] =
           std::hypot(fit.standard_error[p], (*shift)[free.component] / free.scale);
@@ -234,10 +231,10 @@ class Procedure {
 
   // m, W, of the place of plants that nothing shows but what they do to the arm: the largest.
   Vec3 standing_error() const {
-    const SceneFitResult& fit = out_.findings.model();
+    const FitSummary& fit = out_.findings.model();
     Vec3 error = Vec3::Zero();
-    for (int p = 0; p < fit.model.size() && p < fit.standard_error.size(); ++p) {
-      const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
+    for (int p = 0; p < fit.hypothesis.size() && p < fit.standard_error.size(); ++p) {
+      const effects::FreeParameter& free = fit.hypothesis.free[static_cast<std::size_t>(p)];
       if (free.name != "offset" || free.prior == 0.0) continue;
       error[free.component] = std::max(error[free.component], fit.standard_error[p] * free.scale);
     }

@@ -14,24 +14,13 @@ namespace {
 constexpr double ninety_five = 1.96;
 constexpr std::size_t most_nearest = 3;
 
-Estimate estimate_of(const SceneFitResult& fit, int p) {
-  const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
+Estimate estimate_of(const FitSummary& fit, int p) {
+  const effects::FreeParameter& free = fit.hypothesis.free[static_cast<std::size_t>(p)];
   // The interval is made in the unknown: a factor's is one by ratio and stays above zero.
-  const double u = free.to_unknown(fit.model.value(p)), error = ninety_five * fit.standard_error[p];
-  return {fit.model.value(p), free.to_value(u - error), free.to_value(u + error), free.unit};
+  const double u = free.to_unknown(fit.hypothesis.value(p)),
+               error = ninety_five * fit.standard_error[p];
+  return {fit.hypothesis.value(p), free.to_value(u - error), free.to_value(u + error), free.unit};
 }
-
-// Sums of squares and of samples, so that kinds of readings and trials can be added before a root
-// is taken. A mean of roots would give a short trial the weight of a long one.
-struct Misfit {
-  double square = 0.0;
-  int count = 0;
-  // 1 is noise alone. Without samples nothing speaks against the model.
-  double over_noise() const { return std::sqrt(count > 0 ? square / count : 1.0); }
-  // Each sample of noise costs 1 on average in every model, so only what is above that can be
-  // shared out.
-  double beyond() const { return std::max(0.0, square - count); }
-};
 
 class Conclusion {
  public:
@@ -80,7 +69,7 @@ class Conclusion {
       if (static_cast<std::size_t>(t) >= readings.size()) continue;
       // By kind of reading. All count alike in noise units, which is the only unit that they have
       // in common.
-      for (const SceneDataSet::Sum& one : data_.sums(t, readings[static_cast<std::size_t>(t)])) {
+      for (const Misfit& one : data_.sums(t, readings[static_cast<std::size_t>(t)])) {
         all.square += one.square;
         all.count += one.count;
       }
@@ -115,10 +104,10 @@ class Conclusion {
 
   // In the units of the file, where the scene has one material; else as factors.
   void set_parameters() {
-    const SceneFitResult& model = found_.model();
+    const FitSummary& model = found_.model();
     for (const effects::EffectDefinition* known : effects::material_factors()) {
       const std::string& name = known->name;
-      const int p = model.model.factor_on(name);
+      const int p = model.hypothesis.factor_on(name);
       // A fit that was stopped before its first step has no errors yet.
       if (p < 0 || p >= model.standard_error.size()) continue;
       const Estimate factor = estimate_of(model, p);
@@ -139,10 +128,10 @@ class Conclusion {
   }
 
   // Where an unseen plant is attached.
-  void set_baseline_effects(const SceneFitResult& model) {
-    for (int p = 0; p < model.model.size(); ++p) {
-      const effects::FreeParameter& free = model.model.free[static_cast<std::size_t>(p)];
-      const plant::Effect& effect = model.model.effects[static_cast<std::size_t>(free.effect)];
+  void set_baseline_effects(const FitSummary& model) {
+    for (int p = 0; p < model.hypothesis.size(); ++p) {
+      const effects::FreeParameter& free = model.hypothesis.free[static_cast<std::size_t>(p)];
+      const plant::Effect& effect = model.hypothesis.effects[static_cast<std::size_t>(free.effect)];
       const SceneEffectDefinition* known = told_of_baseline(effect, free);
       if (!known) continue;
       const InBaseline::Told told = known->in_baseline->told(experiment_, effect, free.component);
@@ -183,7 +172,7 @@ class Conclusion {
   }
 
   NamedCause cause_of(const SceneCandidate& candidate, const std::string& name) {
-    const SceneFitResult& fit = candidate.fit;
+    const FitSummary& fit = candidate.fit;
     NamedCause cause;
     cause.name = name;
     // Both with the price of all their numbers: those of the baseline are in either.
@@ -191,11 +180,11 @@ class Conclusion {
     std::vector<plant::Effect> without;
     // The others keep their numbers: a change is what this cause makes in the model that is told,
     // and nothing else.
-    for (const plant::Effect& effect : fit.model.effects)
+    for (const plant::Effect& effect : fit.hypothesis.effects)
       if (effect.name != name) without.push_back(effect);
-    for (int p = 0; p < fit.model.size(); ++p) {
-      const effects::FreeParameter& free = fit.model.free[static_cast<std::size_t>(p)];
-      const plant::Effect& effect = fit.model.effects[static_cast<std::size_t>(free.effect)];
+    for (int p = 0; p < fit.hypothesis.size(); ++p) {
+      const effects::FreeParameter& free = fit.hypothesis.free[static_cast<std::size_t>(p)];
+      const plant::Effect& effect = fit.hypothesis.effects[static_cast<std::size_t>(free.effect)];
       if (effect.name != name || p >= fit.standard_error.size()) continue;
       // Which link, which camera: part of what was found, as much as its numbers.
       cause.words = effect.words;
@@ -223,7 +212,7 @@ class Conclusion {
     if (&candidate == &found_.candidates.front()) {
       // No fit without it exists. Held numbers give the largest share that it can have.
       set_share(cause, alone   ? d_.refitted
-                       : other ? predict(other->fit.model.effects)
+                       : other ? predict(other->fit.hypothesis.effects)
                                : predict(without));
       set_change(cause, without);
     }
@@ -234,10 +223,10 @@ class Conclusion {
   // It stands in the model that is told as a free number of the baseline, and not as a candidate of
   // the search.
   NamedCause material_cause(const std::string& name) {
-    const SceneFitResult& model = found_.model();
+    const FitSummary& model = found_.model();
     NamedCause cause;
     cause.name = name;
-    if (const int p = model.model.factor_on(name); p >= 0) {
+    if (const int p = model.hypothesis.factor_on(name); p >= 0) {
       cause.parameters["factor"].push_back(estimate_of(model, p));
       // Not how much misfit it takes: a swing sees a ratio of numbers, and each of them takes all
       // of it.
@@ -256,10 +245,10 @@ class Conclusion {
   }
 
   // Of an unseen plant, whose place is part of the baseline.
-  void add_place(const SceneFitResult& model, NamedCause& cause) const {
-    for (int p = 0; p < model.model.size(); ++p) {
-      const effects::FreeParameter& free = model.model.free[static_cast<std::size_t>(p)];
-      const plant::Effect& effect = model.model.effects[static_cast<std::size_t>(free.effect)];
+  void add_place(const FitSummary& model, NamedCause& cause) const {
+    for (int p = 0; p < model.hypothesis.size(); ++p) {
+      const effects::FreeParameter& free = model.hypothesis.free[static_cast<std::size_t>(p)];
+      const plant::Effect& effect = model.hypothesis.effects[static_cast<std::size_t>(free.effect)];
       if (effect.name != cause.name) continue;
       cause.parameters[free.name].push_back(estimate_of(model, p));
       cause.words = effect.words;

@@ -1,6 +1,7 @@
 #include "plugins/discrepancy/simulate/differences.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pedicel::discrepancy {
 
@@ -8,28 +9,26 @@ using plant::MaterialRole;
 
 namespace {
 
-// Noise units. In a narrow valley two columns that are alike but for a hundredth are compared, and
-// the second order of a swing's phase counts: with 5 a gradient's fit ended up to 3 nats above its
-// minimum, with 0.3 within 0.1 of it and in half the steps. With 0.05 what Newton leaves is seen.
-constexpr double wanted_change = 0.3;
 constexpr double most_over = 2.5;  // of the size wanted
-constexpr double first_size = 0.01, least_size = 1.0e-6, most_size = 0.05;
 
 }  // namespace
 
-Differences::Differences(const Hypothesis& model)
-    : model_(model),
+Differences::Differences(const Hypothesis& model, DifferenceRule rule)
+    : rule_(std::move(rule)),
+      model_(model),
       modulus_(model.factor_on(MaterialRole::stiffness)),
       density_(model.factor_on(MaterialRole::mass)),
       directions_(Eigen::MatrixXd::Identity(model.size(), model.size())),
-      size_(Eigen::VectorXd::Constant(model.size(), first_size)),
-      step_(size_) {
-  if (modulus_ < 0) density_ = -1;
+      size_(Eigen::VectorXd::Constant(model.size(), rule_.first)) {
+  for (int p = 0; p < model.size(); ++p) size_[p] = std::max(size_[p], least(p));
+  step_ = size_;
+  if (modulus_ < 0 || !rule_.pairs) density_ = -1;
   if (density_ >= 0) directions_(modulus_, density_) = 1.0;
 }
 
-Differences::Differences(const Hypothesis& model, const Eigen::MatrixXd& jacobian)
-    : Differences(model) {
+Differences::Differences(const Hypothesis& model, const Eigen::MatrixXd& jacobian,
+                         DifferenceRule rule)
+    : Differences(model, std::move(rule)) {
   const Eigen::Index known = jacobian.cols();
   Eigen::MatrixXd along = jacobian * directions_.topLeftCorner(known, known);
   resize(along);
@@ -63,9 +62,13 @@ bool Differences::suited() const {
 
 // Those beyond the columns that are known keep their sizes.
 void Differences::resize(const Eigen::MatrixXd& along) {
-  for (int p = 0; p < static_cast<int>(along.cols()); ++p)
-    size_[p] =
-        std::clamp(wanted_change / std::max(along.col(p).norm(), 1.0e-12), least_size, most_size);
+  for (int p = 0; p < static_cast<int>(along.cols()); ++p) {
+    // A number that shows nothing would get a step without end.
+    const double wanted = rule_.wanted_change / std::max(along.col(p).norm(), 1.0e-12);
+    const double near =
+        std::clamp(wanted, size_[p] / rule_.most_growth, size_[p] * rule_.most_growth);
+    size_[p] = std::clamp(near, least(p), std::max(least(p), rule_.most));
+  }
 }
 
 }  // namespace pedicel::discrepancy

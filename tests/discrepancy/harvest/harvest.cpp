@@ -139,8 +139,8 @@ class Foretelling {
         throw discrepancy::SceneFailed("trial \"" + experiment_.trials[t].name +
                                        "\" cannot be simulated to its end");
       all.push_back(course_of(readings[t], experiment_.trials[t], real[t], points));
-      SceneDataSet::Sum sum;
-      for (const SceneDataSet::Sum& one : data_.sums(static_cast<int>(t), readings[t])) sum += one;
+      Misfit sum;
+      for (const Misfit& one : data_.sums(static_cast<int>(t), readings[t])) sum += one;
       all.back().misfit = sum.rms();
     }
     return all;
@@ -184,7 +184,7 @@ Diagnosed diagnose(const std::filesystem::path& folder, const std::filesystem::p
   told.is_believed = found.verdict.outcome != discrepancy::Outcome::unknown;
   const std::vector<discrepancy::SceneCandidate>& nearest = found.findings.candidates;
   const std::vector<plant::Effect>& model =
-      told.is_believed || nearest.empty() ? found.model : nearest.front().fit.model.effects;
+      told.is_believed || nearest.empty() ? found.model : nearest.front().fit.hypothesis.effects;
   std::filesystem::create_directories(out);
   found.verdict.extended_scene =
       write_extended_scene(out, experiment, model, found.fit_trials.front()).file;

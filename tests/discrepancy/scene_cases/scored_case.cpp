@@ -128,7 +128,7 @@ SceneScore run_case(const Order& order, std::uint64_t seed, const std::filesyste
     score.call = call_of(score, verdict.outcome);
     score.nominal = found.findings.nominal_excess;
     score.size = found.findings.baseline_excess;
-    score.left = discrepancy::SceneDataSet::beyond_noise(found.findings.model().sum);
+    score.left = discrepancy::SceneDataSet::beyond_noise(found.findings.model().misfit());
     if (score.call == "right") count_numbers(setting, verdict, score);
     if (const int trial = found.findings.outside.trial; verdict.unknown && trial >= 0)
       if (const Outside& truth = outside[static_cast<std::size_t>(trial)]; truth.acts) {

@@ -49,7 +49,7 @@ struct Weighted {
     testing::Beam beam;
     beam.damping_time = 0.01;
     Experiment e = testing::experiment_of(beam, 3.0, 0.02);
-    e.plant.distance = 0.05;
+    e.plant().distance = 0.05;
     Trial& trial = e.trials[0];
     trial.gravity = Vec3(0, 0, -9.81);
     trial.holds.push_back(

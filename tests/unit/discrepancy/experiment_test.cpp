@@ -118,7 +118,7 @@ TEST(Experiment, WhatIsWrittenReadsBackTheSame) {
   const auto read = read_experiment(folder / "x", diagnostics);
   ASSERT_TRUE(read) << diagnostics.text();
   EXPECT_EQ(read->title, written.title);
-  EXPECT_EQ(read->plant, written.plant);
+  EXPECT_EQ(read->plant(), written.plant());
   EXPECT_EQ(read->noise.position_std, written.noise.position_std);
   EXPECT_EQ(read->noise.force_std, written.noise.force_std);
   EXPECT_EQ(read->effects, written.effects);
@@ -165,10 +165,10 @@ TEST(Experiment, FindsTheLeavesOfItsPlantAndTakesThemAlong) {
   Diagnostics diagnostics;
   const auto read = read_experiment(folder / "x", diagnostics);
   ASSERT_TRUE(read) << diagnostics.text();
-  ASSERT_EQ(read->plant.leaves.size(), 1u);
+  ASSERT_EQ(read->plant().leaves.size(), 1u);
   EXPECT_GT(scales_of(*read).mass, scales_of(full_experiment()).mass);
   EXPECT_NO_THROW(junction_nuisance(*read, {}));
-  EXPECT_NO_THROW(PlantMaker(*read, read->plant.distance, 0.0));
+  EXPECT_NO_THROW(PlantMaker(*read, read->plant().distance, 0.0));
 }
 
 TEST(DrivenPath, IsLinearBetweenItsRowsAndKeptBeyond) {

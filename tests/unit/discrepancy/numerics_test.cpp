@@ -31,12 +31,12 @@ struct Released {
     testing::Beam beam;
     beam.damping_time = 0.02;
     Experiment e = testing::experiment_of(beam, 0.4);
-    e.plant.distance = distance;
+    e.plant().distance = distance;
     if (branched) {
-      plant::PlantCurve branch = e.plant.curves[0];
+      plant::PlantCurve branch = e.plant().curves[0];
       branch.name = "branch";
       branch.points = {Vec3(0, 0, 0.5 * beam.length), Vec3(0.12, 0, 0.6 * beam.length)};
-      e.plant.curves.push_back(branch);
+      e.plant().curves.push_back(branch);
     }
     Trial& trial = e.trials[0];
     trial.force = {};

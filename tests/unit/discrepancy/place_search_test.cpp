@@ -25,7 +25,7 @@ Experiment held_beam(const plant::Effect& effect, double release) {
   testing::Beam beam;
   beam.damping_time = 0.01;
   Experiment e = testing::experiment_of(beam, 1.0, 0.02);
-  e.plant.distance = 0.05;
+  e.plant().distance = 0.05;
   Trial& trial = e.trials[0];
   trial.force = {};
   trial.gravity = Vec3(0, 0, -9.81);

@@ -14,7 +14,7 @@ inline Experiment released_beam(double noise, double distance, const Numerics& n
   Beam beam;
   beam.damping_time = 0.01;
   Experiment e = experiment_of(beam, 1.0, 0.02);
-  e.plant.distance = distance;
+  e.plant().distance = distance;
   Trial& trial = e.trials[0];
   trial.force = {};
   trial.gravity = Vec3(0, 0, -9.81);

@@ -71,7 +71,7 @@ struct Pulled {
     testing::Beam beam;
     beam.damping_time = 0.01;
     Experiment e = testing::experiment_of(beam, 1.0, 0.02);
-    e.plant.distance = 0.05;
+    e.plant().distance = 0.05;
     e.trials[0].force = {};
     e.trials[0].gravity = Vec3(0, 0, -9.81);
     e.trials.resize(3, e.trials[0]);

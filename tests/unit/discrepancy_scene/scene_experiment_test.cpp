@@ -156,7 +156,7 @@ TEST_F(SceneExperimentFiles, WhatIsObservedIsReadBackAndFitsItsOwnModel) {
   const SceneDataSet data(*back);
   const SceneReadings readings = readings_of(*back, {}, options.numerics);
   int kinds = 0;
-  for (const SceneDataSet::Sum& sum : data.sums(0, readings)) {
+  for (const Misfit& sum : data.sums(0, readings)) {
     if (sum.count == 0) continue;  // joints: they drive the arm
     EXPECT_NEAR(sum.rms(), 1.0, 0.2);
     ++kinds;

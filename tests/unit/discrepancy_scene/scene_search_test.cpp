@@ -37,11 +37,11 @@ class SceneSearch : public testing::Test {
   std::function<void(Experiment&)> spoil_;  // what was measured
 };
 
-double value_of(const SceneFitResult& fit, const std::string& effect, const std::string& number) {
-  for (int p = 0; p < fit.model.size(); ++p)
-    if (fit.model.effects[fit.model.free[p].effect].name == effect &&
-        fit.model.free[p].name == number)
-      return fit.model.value(p);
+double value_of(const FitSummary& fit, const std::string& effect, const std::string& number) {
+  for (int p = 0; p < fit.hypothesis.size(); ++p)
+    if (fit.hypothesis.effects[fit.hypothesis.free[p].effect].name == effect &&
+        fit.hypothesis.free[p].name == number)
+      return fit.hypothesis.value(p);
   return std::nan("");
 }
 
@@ -67,10 +67,11 @@ TEST_F(SceneSearch, AWrongGainIsFoundWithItsSize) {
   EXPECT_NEAR(value_of(found.candidates.front().fit, "wrench_gain", "gain"), 1.3, 0.01);
   EXPECT_LT(found.candidates.front().excess, 0.4);
   // It pays for its own number, and not for those that the baseline has, too.
-  const SceneFitResult &with = found.candidates.front().fit, &without = found.baseline;
-  EXPECT_NEAR(found.baseline_cost - found.candidates.front().cost,
-              0.5 * (without.sum.square - with.sum.square) - 0.5 * std::log(with.sum.count),
-              1.0e-6);
+  const FitSummary &with = found.candidates.front().fit, &without = found.baseline;
+  EXPECT_NEAR(
+      found.baseline_cost - found.candidates.front().cost,
+      0.5 * (without.misfit().square - with.misfit().square) - 0.5 * std::log(with.misfit().count),
+      1.0e-6);
 }
 
 // On an arm of one joint a tool that sits elsewhere, six numbers, does all that an encoder's zero
@@ -112,10 +113,10 @@ TEST_F(SceneSearch, NoiseThatIsNotStatedIsEstimated) {
   EXPECT_NEAR(data.deviation(SceneChannel::force), 0.03, 0.003);
 }
 
-SceneFitResult leaving(const Eigen::VectorXd& residual) {
-  SceneFitResult fit;
+FitSummary leaving(const Eigen::VectorXd& residual) {
+  FitSummary fit;
   fit.residual = residual;
-  fit.sum = {residual.squaredNorm(), static_cast<int>(residual.size())};
+  fit.samples = static_cast<int>(residual.size());
   return fit;
 }
 
