@@ -69,11 +69,11 @@ std::optional<double> lead_of(const HiddenCase& hidden, const Diagnosis& diagnos
       diagnosis.ranking, [&](const Candidate& c) { return c.whole && c.cause == name; });
   if (truth == diagnosis.ranking.end()) return lead_among(diagnosis.verdict, name);
   std::optional<double> lead;
-  for (const Candidate& rival : diagnosis.ranking) {
-    if (!rival.whole || rival.cause == name || rival.limit_of == name ||
-        effects::is_special_case(name, rival.cause))
+  for (const Candidate& other : diagnosis.ranking) {
+    if (!other.whole || other.cause == name || other.limit_of == name ||
+        effects::is_special_case(name, other.cause))
       continue;
-    const double here = discrepancy::said_by_data(*truth) - discrepancy::said_by_data(rival);
+    const double here = discrepancy::said_by_data(*truth) - discrepancy::said_by_data(other);
     lead = std::min(lead.value_or(here), here);
   }
   return lead;

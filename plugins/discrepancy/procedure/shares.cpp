@@ -1,9 +1,13 @@
 #include "plugins/discrepancy/procedure/shares.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "plugins/discrepancy/procedure/conclusion.h"
+#include "plugins/discrepancy/select/left_misfit.h"
+#include "plugins/discrepancy/select/symptom_numbers.h"
+#include "plugins/discrepancy/simulate/channel.h"
 #include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
@@ -95,17 +99,14 @@ class SharedMisfit {
       : evaluator_(evaluator), options_(options) {
     options_.trials = std::move(trials);
     if (options_.trials.empty()) return;
-    const double samples = evaluator_.data().samples(options_.trials);
     // J of the nominal model less what noise alone would be. So the share of all causes together is
     // 1 where they leave noise.
-    above_noise_ = of(Hypothesis{}) - samples;
-    // The sum of as many squares of noise scatters by itself.
-    is_seen_ = above_noise_ > interval95 * std::sqrt(2.0 * samples);
+    above_noise_ = above_noise(of(Hypothesis{}), evaluator_.data().samples(options_.trials));
   }
   std::optional<double> share(const Explained& explained) {
     // A share of nothing is no number.
-    if (!is_seen_) return {};
-    return (of(explained.without) - of(explained.with)) / above_noise_;
+    if (!above_noise_) return {};
+    return (of(explained.without) - of(explained.with)) / *above_noise_;
   }
 
  private:
@@ -115,8 +116,7 @@ class SharedMisfit {
 
   Evaluator& evaluator_;
   FitOptions options_;
-  double above_noise_ = 0.0;
-  bool is_seen_ = false;
+  std::optional<double> above_noise_;
 };
 
 /// Sum of squares of what was measured three numbers at a time.
@@ -233,7 +233,44 @@ bool settle_substitutes(const Levels& levels, Verdict& verdict) {
   return !is_open;
 }
 
+// Adds the residuals of a trial.
+void add_misfit(const DataSet& data, int trial, const Prediction& base, const Prediction& told,
+                InstrumentSums& sums) {
+  constexpr std::array names{"position", "force", "moment"};  // by ChannelKind
+  const int size = data.size(std::span(&trial, 1));
+  Eigen::VectorXd white_base(size), white_told(size);
+  data.residual(trial, base, 1.0, white_base);
+  data.residual(trial, told, 1.0, white_told);
+  const Eigen::MatrixXd plain = data.scaled_residual(trial, told);
+  Eigen::Index row = 0;
+  for (int c = 0; c < plain.cols(); ++c) {
+    const ChannelPlace channel = channel_at(data.experiment(), trial, c);
+    const Eigen::Index rows = channel.samples->size();
+    const auto seen = plain.col(c).array().isFinite();
+    sums[names[static_cast<std::size_t>(channel.kind)]] +=
+        {white_base.segment(row, rows).squaredNorm(), white_told.segment(row, rows).squaredNorm(),
+         seen.select(plain.col(c), 0.0).squaredNorm(), static_cast<double>(seen.count())};
+    row += rows;
+  }
+}
+
 }  // namespace
+
+void tell_left(const Findings& findings, Diagnosis& diagnosis) {
+  const DataSet& data = *findings.data;
+  // A model whose name was taken back is not told.
+  const std::vector<Prediction>& told =
+      diagnosis.predictions[diagnosis.verdict.causes.empty() ? refitted : extended];
+  const auto over = [&](const std::vector<int>& trials) {
+    InstrumentSums sums;
+    for (const int t : trials)
+      add_misfit(data, t, diagnosis.predictions[refitted][t], told[t], sums);
+    return sums;
+  };
+  LeftMisfit& left = diagnosis.verdict.left;
+  left = left_misfit(over(diagnosis.fit_trials), over(diagnosis.check_trials));
+  left.symptoms = names_that_show(symptom_numbers(symptoms(data.experiment(), data, told)));
+}
 
 void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOptions& options,
                  Diagnosis& diagnosis) {

@@ -21,4 +21,8 @@ namespace pedicel::discrepancy {
 void tell_shares(Evaluator& evaluator, const Findings& findings, const FitOptions& options,
                  Diagnosis& diagnosis);
 
+/// What the verdict's model leaves of the data, from the diagnosis's predictions: the verdict's
+/// `left`. After it is known whether causes are named.
+void tell_left(const Findings& findings, Diagnosis& diagnosis);
+
 }  // namespace pedicel::discrepancy

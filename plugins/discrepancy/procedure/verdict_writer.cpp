@@ -43,6 +43,7 @@ void VerdictWriter::write(const std::string& instead_of, int objecting) {
     measure_errors(state_.findings, state_.result);
   }
   judge_named(instead_of, objecting);
+  tell_left(state_.findings, state_.result);
   if (!state_.stopped()) {
     state_.log.say("weighing what explains how much", 0.94);
     Evaluator evaluator = state_.setup->evaluator();
@@ -91,6 +92,7 @@ void VerdictWriter::write_partial() {
       verdict.nearest.front().against = "not all causes were refitted";
     }
   }
+  tell_left(state_.findings, state_.result);
   report_parameters(state_.findings, state_.result);
   report_ratios(state_.findings, state_.result);
   verdict.symptoms = symptom_numbers(state_.findings.symptoms);

@@ -196,7 +196,7 @@ void add_card(io::HtmlReport& page, const ReportData& report,
   }
   if (report.predicted && concluded(v)) add_foretold(page, report);
   add_competing(page, d);
-  if (concluded(v)) add_hiding(page, v);
+  if (concluded(v)) add_detectable_limits(page, v);
   add_next(page, d);
   page.end_card();
 }

@@ -51,7 +51,7 @@ std::string estimate_text(const std::vector<Estimate>& estimates) {
   return text + "]" + (estimates.empty() ? "" : unit_text(estimates.front().unit));
 }
 
-std::string share_text(const Share& share) {
+std::string share_text(const FitAndCheck& share) {
   std::string text = share.fit ? percent(*share.fit) : "\u2013";
   if (share.check) text += ", held out " + percent(*share.check);
   return text;
@@ -144,6 +144,16 @@ std::string remainder_text(const Verdict& v) {
          v.remainder + (v.remainder.ends_with('.') ? "" : ".");
 }
 
+std::string explained_text(const Verdict& v) {
+  const FitAndCheck& left = v.left.share;
+  const std::optional<double> share = left.check ? left.check : left.fit;
+  // A number of the material alone stands in the refitted model already, and all is left.
+  if (v.outcome != Outcome::named || !share || *share >= 1.0) return "";
+  return "What is named explains " + share_removed(1.0 - *share) +
+         " of the misfit that the refitted model leaves above the noise, on the " +
+         (left.check ? "held-out" : "fitted") + " trials.";
+}
+
 std::string gain_text(const Diagnosis& d) {
   const Errors& check = d.verdict.check;
   const Errors& errors = check.refitted ? check : d.verdict.fit;
@@ -171,25 +181,25 @@ std::string gain_text(const Diagnosis& d) {
 std::pair<std::vector<std::string>, std::vector<std::string>> detectable_limit_texts(
     const Verdict& verdict) {
   std::pair<std::vector<std::string>, std::vector<std::string>> lists;
-  for (const DetectableLimit& hide : verdict.detectable_limits) {
-    const bool seen = std::isfinite(hide.smallest) && !hide.parameter.empty();
+  for (const DetectableLimit& limit : verdict.detectable_limits) {
+    const bool seen = std::isfinite(limit.smallest) && !limit.parameter.empty();
     if (!seen) {
-      lists.second.push_back(hide.name);
+      lists.second.push_back(limit.name);
       continue;
     }
     // Where the plain model stands at 1 or at infinity, effects hide on that side.
-    const effects::EffectParameter* size = effects::find_parameter(hide.name, hide.parameter);
-    const effects::Vanishes vanishes = size ? size->vanishes : hide.vanishes;
+    const effects::EffectParameter* size = effects::find_parameter(limit.name, limit.parameter);
+    const effects::Vanishes vanishes = size ? size->vanishes : limit.vanishes;
     const bool stiff = vanishes == effects::Vanishes::at_infinity;
     const bool factor = vanishes == effects::Vanishes::at_one;
     const bool beside = vanishes == effects::Vanishes::at_nominal;
-    lists.first.push_back(hide.name + ": " + hide.parameter +
+    lists.first.push_back(limit.name + ": " + limit.parameter +
                           (stiff    ? " above "
                            : factor ? " off 1 by less than "
                            : beside ? " off what the file says by less than "
                                     : " below ") +
-                          short_number(factor ? std::abs(hide.smallest - 1.0) : hide.smallest) +
-                          unit_text(hide.unit));
+                          short_number(factor ? std::abs(limit.smallest - 1.0) : limit.smallest) +
+                          unit_text(limit.unit));
   }
   return lists;
 }

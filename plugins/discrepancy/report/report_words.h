@@ -17,7 +17,7 @@ std::string estimate_text(const std::vector<Estimate>& estimates);
 std::string place_text(const NamedCause& cause);
 
 /// "93 %, held out 91 %"; a dash where the nominal model leaves no more than noise.
-std::string share_text(const Share& share);
+std::string share_text(const FitAndCheck& share);
 /// "0.05 mm, 0.2 N".
 std::string change_text(const Change& change);
 
@@ -36,11 +36,15 @@ std::string ratios_text(const Verdict& verdict);
 /// What is still unexplained, or what is known of something unknown, as sentences; may be empty.
 std::string remainder_text(const Verdict& verdict);
 
+/// How much of what the refitted model leaves the causes explain, as a sentence; empty unless
+/// causes are named, or where it leaves noise alone.
+std::string explained_text(const Verdict& verdict);
+
 /// The gain on the held-out trials against the noise floor, one or two sentences.
 std::string gain_text(const Diagnosis& diagnosis);
 
-/// "extra_mass: mass from 0.004 kg on", for causes that could hide; those that nothing would show
-/// are in the second list.
+/// "extra_mass: mass from 0.004 kg on", for causes that are not named; those that nothing would
+/// show are in the second list.
 std::pair<std::vector<std::string>, std::vector<std::string>> detectable_limit_texts(
     const Verdict& verdict);
 

@@ -185,7 +185,7 @@ std::string scene_report_text(const Experiment& experiment, const SceneDiagnosis
     page.paragraph(gain);
   }
   add_competing(page, d);
-  add_hiding(page, v);
+  add_detectable_limits(page, v);
   page.subheading("What to do next");
   page.paragraph(scene_next_text(v));
   page.end_card();

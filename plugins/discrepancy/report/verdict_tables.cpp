@@ -50,6 +50,8 @@ void add_causes(io::HtmlReport& page, const Verdict& v) {
     page.subheading(v.outcome == Outcome::ambiguous ? "What it could be, and how large"
                                                     : "What it is, where, and how large");
     add_cause_table(page, v.causes);
+    const std::string explained = explained_text(v);
+    if (!explained.empty()) page.paragraph(explained);
   }
   if (!v.details.empty()) {
     page.subheading("Details: real, and too small to matter");
@@ -61,7 +63,7 @@ void add_causes(io::HtmlReport& page, const Verdict& v) {
   }
 }
 
-void add_hiding(io::HtmlReport& page, const Verdict& v) {
+void add_detectable_limits(io::HtmlReport& page, const Verdict& v) {
   const auto [small, never] = detectable_limit_texts(v);
   if (small.empty() && never.empty()) return;
   page.subheading("What could still hide in these data");

@@ -11,7 +11,7 @@ namespace pedicel::discrepancy {
 void add_symptom_numbers(io::HtmlReport& page, const Verdict& v);
 /// Causes, details and what came closest, with sizes, shares and what they change.
 void add_causes(io::HtmlReport& page, const Verdict& v);
-/// What could still hide.
-void add_hiding(io::HtmlReport& page, const Verdict& v);
+/// What the data would not show.
+void add_detectable_limits(io::HtmlReport& page, const Verdict& v);
 
 }  // namespace pedicel::discrepancy

@@ -157,7 +157,7 @@ class Screen {
       if (starts_[s].is_bare) by_cost.emplace(cost_by_size(all_.col(starts_[s].at)), s);
     const SceneSearchSettings& how = evaluator_.settings().search;
     const double excess = SceneDataSet::beyond_noise(base_.misfit());
-    // Where no cause could gain enough, sizes of what could hide are all that is wanted.
+    // Where no cause could gain enough, detectable limits are all that is wanted.
     if (excess * excess < how.least_gain) return;
     std::map<std::string, int> of_cause;
     std::vector<std::size_t> best;

@@ -329,7 +329,7 @@ class Search {
   void add_round(const FitSummary& base, double base_excess, const std::vector<std::string>& names,
                  double from, double to) {
     tell("looking at all causes", from);
-    // Beside the baseline, once: what else could hide is asked of the data and not of a model.
+    // Beside the baseline, once: detectable limits are asked of the data and not of a model.
     std::vector<SeenFrom>* seen = found_.seen.empty() ? &found_.seen : nullptr;
     std::vector<ScreenedCause> screened =
         screen_causes(evaluator_, base, names, options_.trials, seen);

@@ -9,6 +9,7 @@
 #include "plugins/discrepancy/scene_procedure/robot_alone.h"
 #include "plugins/discrepancy/scene_procedure/scene_symptoms.h"
 #include "plugins/discrepancy/scene_procedure/scene_verdict.h"
+#include "plugins/discrepancy/select/symptom_numbers.h"
 
 namespace pedicel::discrepancy {
 
@@ -248,8 +249,11 @@ class Procedure {
     plan_next();
     // Of the refitted model and not of the extended one: a symptom is what the data show beside
     // what everybody would fit.
-    out_.verdict.symptoms =
-        scene_symptoms(experiment_, data_, out_.refitted, options_.settings.symptoms);
+    const auto symptoms_of = [&](const std::vector<SceneReadings>& readings) {
+      return scene_symptoms(experiment_, data_, readings, options_.settings.symptoms);
+    };
+    out_.verdict.symptoms = symptoms_of(out_.refitted);
+    out_.verdict.left.symptoms = names_that_show(symptoms_of(out_.extended));
     for (SymptomNumber& one : robot_alone(fine_, out_.model, data_.deviation(SceneChannel::force),
                                           data_.deviation(SceneChannel::moment), standing_error(),
                                           options_.settings.robot))

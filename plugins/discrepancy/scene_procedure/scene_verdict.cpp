@@ -5,6 +5,7 @@
 
 #include "engine/io/csv.h"
 #include "plugins/discrepancy/scene_procedure/scene_decoys.h"
+#include "plugins/discrepancy/select/left_misfit.h"
 #include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
@@ -58,7 +59,8 @@ class Conclusion {
     if (v_.outcome == Outcome::unknown) tell_unknown();
     if (v_.outcome == Outcome::ambiguous) tell_next();
     // Behind what nobody knows anything may hide.
-    if (v_.outcome != Outcome::unknown) tell_what_could_hide();
+    if (v_.outcome != Outcome::unknown) tell_detectable_limits();
+    tell_left();
   }
 
  private:
@@ -337,7 +339,28 @@ class Conclusion {
         "the same change backwards in time, or at other markers, explains the data as well";
   }
 
-  void tell_what_could_hide() {
+  void tell_left() {
+    // By the instruments' noise alone: where predictions are unsure samples count in full.
+    const SceneDataSet data(experiment_);
+    const auto over = [&](const std::vector<int>& trials) {
+      InstrumentSums sums;
+      for (const int trial : trials) {
+        const auto t = static_cast<std::size_t>(trial);
+        // A diagnosis that was stopped may lack some.
+        if (t >= d_.refitted.size() || t >= d_.extended.size()) continue;
+        const auto refitted = data.sums(trial, d_.refitted[t]);
+        const auto told = data.sums(trial, d_.extended[t]);
+        for (std::size_t k = 0; k < told.size(); ++k)
+          sums[channel_name(static_cast<SceneChannel>(k))] +=
+              {refitted[k].square, told[k].square, told[k].square,
+               static_cast<double>(told[k].count)};
+      }
+      return sums;
+    };
+    v_.left = left_misfit(over(d_.fit_trials), over(d_.check_trials));
+  }
+
+  void tell_detectable_limits() {
     for (const SeenFrom& one : found_.seen) {
       const bool named = std::ranges::any_of(
           v_.causes, [&](const NamedCause& cause) { return cause.name == one.name; });

@@ -12,6 +12,13 @@ std::vector<SymptomNumber> symptom_numbers(const std::vector<Symptom>& symptoms)
   return numbers;
 }
 
+std::vector<std::string> names_that_show(const std::vector<SymptomNumber>& symptoms) {
+  std::vector<std::string> names;
+  for (const SymptomNumber& one : symptoms)
+    if (one.shows) names.push_back(one.name);
+  return names;
+}
+
 std::string symptoms_text(const Verdict& verdict, std::size_t most) {
   std::string text;
   std::size_t told = 0;

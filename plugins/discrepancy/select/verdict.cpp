@@ -44,7 +44,7 @@ const io::KeyList& verdict_list() {
         .sentence = "says what the file is"},
        {.name = "version",
         .type = KeyType::whole,
-        .bounds = {1, 1},
+        .bounds = {2, 2},
         .sentence = "version of the format"},
        {.name = "verdict",
         .type = KeyType::word,
@@ -59,7 +59,7 @@ const io::KeyList& verdict_list() {
             "against each"),
        part("symptoms", KeyType::list, "where nothing was simulated",
             "what the data show beside the refitted model, see below"),
-       list("rivals", "other causes"),
+       list("competing", "other causes, see below"),
        {.name = "parameters",
         .type = KeyType::map,
         .sentence = "refitted numbers of the plant, by name"},
@@ -81,7 +81,10 @@ const io::KeyList& verdict_list() {
        {.name = "remainder",
         .type = KeyType::text,
         .sentence = "what is still unexplained, in words, or empty"},
-       list("could_hide",
+       {.name = "left",
+        .type = KeyType::map,
+        .sentence = "how much of the misfit is still unexplained, see below"},
+       list("detectable_limits",
             "effects that these data could not show, see below; empty under "
             "`unknown`, whose remainder is larger than any of them"),
        {.name = "next_experiment", .type = KeyType::text, .sentence = "one sentence, or empty"},
@@ -95,6 +98,8 @@ const io::KeyList& verdict_list() {
         .sentence = "experiment.yaml of the trial that decides, see below"},
        {.name = "simulations", .type = KeyType::whole, .sentence = "trials that were simulated"},
        {.name = "seconds", .unit = "s", .sentence = "wall time"},
+       list("rivals", "old name of `competing`, written for one release"),
+       list("could_hide", "old name of `detectable_limits`, written for one release"),
        part("unknown", KeyType::map, "where nothing acts from outside",
             "under `unknown`, what acts from outside on a plant of a scene, see below"),
        part("extended_scene", KeyType::path, "where the model is no scene",
@@ -231,10 +236,10 @@ const io::KeyList& symptom_list() {
   return keys;
 }
 
-const io::KeyList& rival_list() {
+const io::KeyList& competing_list() {
   static const io::KeyList keys{
-      "rival",
-      "a rival",
+      "competing_model",
+      "a competing model",
       {{.name = "name", .type = KeyType::text, .sentence = "name of the other cause"},
        {.name = "behind",
         .unit = "1",
@@ -269,10 +274,43 @@ const io::KeyList& misfit_list() {
   return keys;
 }
 
-const io::KeyList& hidden_list() {
+const io::KeyList& left_list() {
   static const io::KeyList keys{
-      "hidden",
-      "what could hide",
+      "left",
+      "what is left",
+      {{.name = "share",
+        .type = KeyType::map,
+        .sentence = "part that is left of what the refitted model leaves above the noise: `fit` "
+                    "and `check`, as a cause's share"},
+       {.name = "times_noise",
+        .type = KeyType::map,
+        .sentence = "RMS residual over the noise: likewise `fit` and `check`"},
+       {.name = "channels",
+        .type = KeyType::list,
+        .sentence = "both by kind of instrument, over all trials"},
+       {.name = "symptoms",
+        .type = KeyType::list,
+        .sentence = "names of the [symptoms](#symptoms) that still show"}}};
+  return keys;
+}
+
+const io::KeyList& channel_list() {
+  static const io::KeyList keys{
+      "channel",
+      "a channel",
+      {{.name = "name",
+        .type = KeyType::word,
+        .words = {"position", "pixel", "force", "moment", "torque", "joint"},
+        .sentence = "kind of instrument"},
+       {.name = "times_noise", .unit = "1", .sentence = "RMS residual over the noise"},
+       {.name = "share", .unit = "1", .sentence = "part that is left"}}};
+  return keys;
+}
+
+const io::KeyList& limit_list() {
+  static const io::KeyList keys{
+      "detectable_limit",
+      "a detectable limit",
       {{.name = "name", .type = KeyType::text, .sentence = "name of an effect"},
        {.name = "parameter", .type = KeyType::text, .sentence = "its number"},
        {.name = "smallest_seen",
@@ -345,6 +383,29 @@ Json where_json(const NamedCause& cause) {
   return where;
 }
 
+Json to_json(const FitAndCheck& share) {
+  return DescribedObject(share_list())
+      .set("fit", number(share.fit))
+      .set("check", number(share.check))
+      .json();
+}
+
+Json to_json(const LeftMisfit& left) {
+  Json channels = Json::array();
+  for (const LeftMisfit::Channel& channel : left.channels)
+    channels.push_back(DescribedObject(channel_list())
+                           .set("name", channel.name)
+                           .set("times_noise", number(channel.times_noise))
+                           .set("share", number(channel.share))
+                           .json());
+  return DescribedObject(left_list())
+      .set("share", to_json(left.share))
+      .set("times_noise", to_json(left.times_noise))
+      .set("channels", channels)
+      .set("symptoms", left.symptoms)
+      .json();
+}
+
 Json to_json(const NamedCause& cause) {
   // An object even where it is empty: null would say that nobody looked.
   Json parameters = Json::object();
@@ -355,11 +416,7 @@ Json to_json(const NamedCause& cause) {
   // which shape a relaxation counts. Their keys are parameters of effects, described there.
   for (const auto& [key, word] : cause.words) json.set_other(key, word);
   json.set("because", cause.because).set("evidence", number(cause.evidence));
-  json.set("share", DescribedObject(share_list())
-                        .set("fit", number(cause.share.fit))
-                        .set("check", number(cause.share.check))
-                        .json());
-  json.set("change", to_json(cause.change));
+  json.set("share", to_json(cause.share)).set("change", to_json(cause.change));
   if (!cause.against.empty()) json.set("against", cause.against);
   if (!cause.instead_of.empty()) json.set("instead_of", cause.instead_of);
   return json.json();
@@ -447,25 +504,25 @@ int exit_code(Outcome outcome) {
 }
 
 std::vector<const io::KeyList*> verdict_keys() {
-  return {&verdict_list(), &cause_list(),   &share_list(),   &change_list(),
-          &number_list(),  &size_list(),    &outside_list(), &symptom_list(),
-          &rival_list(),   &misfits_list(), &misfit_list(),  &hidden_list()};
+  return {&verdict_list(), &cause_list(),   &share_list(),   &change_list(),    &number_list(),
+          &size_list(),    &outside_list(), &symptom_list(), &competing_list(), &misfits_list(),
+          &misfit_list(),  &left_list(),    &channel_list(), &limit_list()};
 }
 
 std::string to_json(const Verdict& verdict) {
-  Json competing = Json::array(), hide = Json::array();
+  Json competing = Json::array(), limits = Json::array();
   for (const CompetingModel& model : verdict.competing)
-    competing.push_back(DescribedObject(rival_list())
+    competing.push_back(DescribedObject(competing_list())
                             .set("name", model.name)
                             .set("behind", number(model.behind))
                             .json());
-  for (const DetectableLimit& effect : verdict.detectable_limits)
-    hide.push_back(DescribedObject(hidden_list())
-                       .set("name", effect.name)
-                       .set("parameter", effect.parameter)
-                       .set("smallest_seen", number(effect.smallest))
-                       .set("unit", effect.unit)
-                       .json());
+  for (const DetectableLimit& limit : verdict.detectable_limits)
+    limits.push_back(DescribedObject(limit_list())
+                         .set("name", limit.name)
+                         .set("parameter", limit.parameter)
+                         .set("smallest_seen", number(limit.smallest))
+                         .set("unit", limit.unit)
+                         .json());
   Json parameters = Json::object();
   for (const auto& [name, estimate] : verdict.parameters) parameters[name] = to_json(estimate);
   Json ratios = Json::object();
@@ -481,24 +538,27 @@ std::string to_json(const Verdict& verdict) {
   };
   DescribedObject json(verdict_list());
   json.set("format", verdict_list().find("format")->words.front())
-      .set("version", 1)
+      .set("version", 2)
       .set("verdict", to_string(verdict.outcome))
       .set("causes", to_json(verdict.causes))
       .set("details", to_json(verdict.details))
       .set("nearest", to_json(verdict.nearest))
-      .set("rivals", competing)  // the format's word for the competing models of the code
+      .set("competing", competing)
       .set("parameters", parameters)
       .set("ratios", ratios)
       .set("error", error)
       .set("gain", number(verdict.gain))
       .set("gain_over_nominal", number(verdict.gain_over_nominal))
       .set("remainder", verdict.remainder)
-      .set("could_hide", hide)
+      .set("left", to_json(verdict.left))
+      .set("detectable_limits", limits)
       .set("next_experiment", verdict.next_experiment)
       .set("extended_plant", or_null(verdict.extended_plant))
       .set("next", or_null(verdict.next))
       .set("simulations", verdict.simulations)
-      .set("seconds", number(verdict.seconds));
+      .set("seconds", number(verdict.seconds))
+      .set("rivals", competing)
+      .set("could_hide", limits);
   // Absent where they do not apply: the manual says so of these keys, in place of null.
   if (verdict.unknown) json.set("unknown", to_json(*verdict.unknown));
   // Only a scene has one.
@@ -704,8 +764,8 @@ std::string finding(const Verdict& verdict) {
                                               " of the error above the noise on held-out trials"
                                         : "";
   switch (verdict.outcome) {
-    // Not "nothing is wrong": only what these data could show was looked for, and `could_hide` says
-    // what they could not.
+    // Not "nothing is wrong": only what these data could show was looked for, and
+    // `detectable_limits` says what they could not.
     case Outcome::adequate:
       return "The model explains these data down to their noise." + details(verdict);
     case Outcome::named:

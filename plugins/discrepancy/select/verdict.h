@@ -22,8 +22,8 @@ struct Estimate {
   std::string unit;
 };
 
-/// Part of the nominal misfit above the noise that a cause takes away (tell_shares()).
-struct Share {
+/// A number of the trials that were fitted, and of those held out; absent where there is none.
+struct FitAndCheck {
   std::optional<double> fit, check;
 };
 /// RMS of what a cause changes, over all trials.
@@ -42,7 +42,8 @@ struct NamedCause {
   std::map<std::string, std::string> words;  ///< which marker, which trial
   std::string because;                       ///< one sentence
   double evidence = 0.0;  ///< log-likelihood gained, less what its parameters cost
-  Share share;
+  /// Part of the nominal misfit above the noise that it takes away (tell_shares()).
+  FitAndCheck share;
   Change change;
   std::string against;  ///< of one that came near: what speaks against it
   /// Under `ambiguous`, beside causes that are certain: the one in whose place it would stand.
@@ -67,6 +68,19 @@ struct CompetingModel {
 /// RMS residual over the noise floor; absent where there were no such trials.
 struct Errors {
   std::optional<double> nominal, refitted, extended;
+};
+
+/// What the verdict's model leaves of the data: the one with its causes, or the refitted one where
+/// nothing is named.
+struct LeftMisfit {
+  struct Channel {
+    std::string name;  ///< kind of instrument: "position", "force"
+    std::optional<double> times_noise, share;
+  };
+  FitAndCheck share{};                  ///< of what the refitted model leaves above the noise
+  FitAndCheck times_noise{};            ///< RMS residual over the noise of a sample
+  std::vector<Channel> channels{};      ///< over all trials
+  std::vector<std::string> symptoms{};  ///< names of those that still show
 };
 
 struct DetectableLimit {
@@ -103,6 +117,7 @@ struct Verdict {
   std::optional<double> gain;               ///< over the refitted model, on held-out trials
   std::optional<double> gain_over_nominal;  ///< likewise
   std::string remainder;
+  LeftMisfit left;
   std::optional<OutsideAction> unknown{};  ///< under Outcome::unknown, where it was found
   std::vector<DetectableLimit> detectable_limits;
   std::string next_experiment;

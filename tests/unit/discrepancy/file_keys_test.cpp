@@ -55,6 +55,7 @@ Verdict with_everything() {
   verdict.nearest = {cause};
   verdict.parameters["density"] = {700, 690, 710, "kg/m3"};
   verdict.competing = {{"gust", 3.0}};
+  verdict.left.channels = {{"position", 1.1, 0.02}};
   verdict.detectable_limits = {{"extra_mass", "mass", 0.004, "kg"}};
   SymptomNumber symptom;
   symptom.name = "touch";
@@ -77,10 +78,12 @@ TEST(VerdictKeys, EachThatIsDescribedIsWritten) {
       {"number", json.at("parameters").at("density")},
       {"outside", json.at("unknown")},
       {"symptom", json.at("symptoms").at(0)},
-      {"rival", json.at("rivals").at(0)},
+      {"competing_model", json.at("competing").at(0)},
       {"misfits", json.at("error")},
       {"misfit", json.at("error").at("check")},
-      {"hidden", json.at("could_hide").at(0)}};
+      {"left", json.at("left")},
+      {"channel", json.at("left").at("channels").at(0)},
+      {"detectable_limit", json.at("detectable_limits").at(0)}};
   for (const io::KeyList* list : verdict_keys()) {
     ASSERT_TRUE(written.contains(list->name)) << list->name;
     std::vector<std::string> keys, described;

@@ -114,7 +114,7 @@ TEST(Report, ForceOfUnknownKindHasItsPlaceInTheDrawing) {
   EXPECT_THAT(page, HasSubstr("&quot;push&quot;, which was to be held out"));
 }
 
-TEST(Report, FactorsThatCouldHideAreToldByHowFarTheyAreFromOne) {
+TEST(Report, LimitsOfFactorsAreToldByHowFarTheyAreFromOne) {
   Verdict verdict;
   verdict.detectable_limits = {{"marker_scale", "factor", 1.00002, "1"},
                                {"weak_segment", "factor", 0.91632, "1"},
@@ -123,6 +123,21 @@ TEST(Report, FactorsThatCouldHideAreToldByHowFarTheyAreFromOne) {
               ::testing::ElementsAre("marker_scale: factor off 1 by less than 2e-05",
                                      "weak_segment: factor off 1 by less than 0.0837",
                                      "extra_mass: mass below 0.004 kg"));
+}
+
+TEST(Report, HowMuchTheCausesExplainIsToldOfHeldOutTrials) {
+  Verdict verdict;
+  verdict.outcome = Outcome::named;
+  EXPECT_EQ(explained_text(verdict), "") << "there is nothing to explain";
+  verdict.left.share.fit = 0.002;
+  EXPECT_EQ(explained_text(verdict),
+            "What is named explains all of the misfit that the refitted model leaves above the "
+            "noise, on the fitted trials.");
+  verdict.left.share.check = 0.17;
+  EXPECT_THAT(explained_text(verdict), HasSubstr("explains 83 % of"));
+  EXPECT_THAT(explained_text(verdict), HasSubstr("on the held-out trials."));
+  verdict.left.share.check = 1.0;
+  EXPECT_EQ(explained_text(verdict), "") << "the refitted model itself is told";
 }
 
 /// The open element that a closing one does not match, or what is left open; empty where all nest.

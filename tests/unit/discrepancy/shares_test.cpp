@@ -9,6 +9,7 @@
 
 #include "engine/core/random.h"
 #include "tests/unit/discrepancy/beam_experiment.h"
+#include "tests/unit/discrepancy/made_diagnosis.h"
 
 namespace pedicel::discrepancy {
 namespace {
@@ -171,6 +172,32 @@ TEST(Shares, LeaveAnAmbiguityAsItIsWhereItMatters) {
   EXPECT_EQ(v.outcome, Outcome::ambiguous);
   EXPECT_THAT(names(v.causes), ElementsAre("marker_offset", "marker_offset"));
   EXPECT_THAT(names(v.details), ElementsAre("youngs_modulus"));
+}
+
+// The extended model of made data leaves their noise alone, and the refitted one a turned root.
+TEST(Left, IsNoiseWhereTheCauseIsRightAndAllWhereItWasTakenBack) {
+  Diagnosis d = made_diagnosis();
+  DataSet data(d.admission.experiment);
+  data.set_noise(d.position_noise, d.force_noise);
+  Findings findings;
+  findings.data = &data;
+  tell_left(findings, d);
+  const LeftMisfit& left = d.verdict.left;
+  EXPECT_NEAR(left.share.fit.value(), 0.0, 0.01);
+  EXPECT_NEAR(left.share.check.value(), 0.0, 0.01);
+  EXPECT_NEAR(left.times_noise.fit.value(), 1.0, 0.05);
+  EXPECT_NEAR(left.times_noise.check.value(), 1.0, 0.05);
+  ASSERT_EQ(left.channels.size(), 2u);
+  EXPECT_EQ(left.channels[0].name, "force");
+  EXPECT_FALSE(left.channels[0].share) << "the force is right in both";
+  EXPECT_EQ(left.channels[1].name, "position");
+  EXPECT_NEAR(left.channels[1].share.value(), 0.0, 0.01);
+  EXPECT_THAT(left.symptoms, IsEmpty());
+  d.verdict.causes.clear();
+  tell_left(findings, d);
+  EXPECT_DOUBLE_EQ(left.share.fit.value(), 1.0);
+  EXPECT_GT(left.times_noise.fit.value(), 5.0);
+  EXPECT_THAT(left.symptoms, ::testing::Contains("base_rotation"));
 }
 
 }  // namespace

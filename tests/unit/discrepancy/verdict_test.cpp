@@ -39,6 +39,7 @@ Verdict full() {
   v.fit = {4.1, 2.2, 1.03};
   v.check = {4.4, 2.6, 1.08};
   v.gain = 0.96;
+  v.left = {{0.02, {}}, {1.03, 1.08}, {{"force", 1.2, {}}}, {"time_shift"}};
   v.detectable_limits = {{"extra_mass", "mass", 0.004, "kg"}, {"gust", "", INFINITY, "1"}};
   v.next_experiment = "Pull \"stem\".";
   v.extended_plant = "extended.plant.yaml";
@@ -55,13 +56,13 @@ std::vector<std::string> keys(const Json& json) {
 
 TEST(Verdict, HasTheFieldsOfTheFormat) {
   const Json json = Json::parse(to_json(full()));
-  EXPECT_THAT(keys(json),
-              ElementsAre("format", "version", "verdict", "causes", "details", "nearest", "rivals",
-                          "parameters", "ratios", "error", "gain", "gain_over_nominal", "remainder",
-                          "could_hide", "next_experiment", "extended_plant", "next", "simulations",
-                          "seconds"));
+  EXPECT_THAT(keys(json), ElementsAre("format", "version", "verdict", "causes", "details",
+                                      "nearest", "competing", "parameters", "ratios", "error",
+                                      "gain", "gain_over_nominal", "remainder", "left",
+                                      "detectable_limits", "next_experiment", "extended_plant",
+                                      "next", "simulations", "seconds", "rivals", "could_hide"));
   EXPECT_EQ(json["format"], "pedicel-verdict");
-  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["version"], 2);
   EXPECT_EQ(json["verdict"], "ambiguous");
   const Json& cause = json["causes"][0];
   EXPECT_EQ(cause["name"], "base_compliance");
@@ -75,7 +76,7 @@ TEST(Verdict, HasTheFieldsOfTheFormat) {
   EXPECT_EQ(cause["change"], Json::parse(R"({"marker": {"value": 0.004, "unit": "m"},
                                              "force": {"value": 0.2, "unit": "N"}})"));
   EXPECT_EQ(json["ratios"]["youngs_modulus/density"]["value"], 1.02);
-  EXPECT_EQ(json["rivals"], Json::parse(R"([{"name": "weak_segment", "behind": 88.1}])"));
+  EXPECT_EQ(json["competing"], Json::parse(R"([{"name": "weak_segment", "behind": 88.1}])"));
   EXPECT_EQ(json["parameters"]["youngs_modulus"]["high"], 3.2e8);
   EXPECT_EQ(json["error"]["fit"],
             Json::parse(R"({"nominal": 4.1, "refitted": 2.2, "extended": 1.03})"));
@@ -83,12 +84,22 @@ TEST(Verdict, HasTheFieldsOfTheFormat) {
   EXPECT_EQ(json["error"]["unit"], "rms residual over the noise floor");
   EXPECT_EQ(json["gain"], 0.96);
   EXPECT_EQ(json["remainder"], "");
-  EXPECT_EQ(json["could_hide"][0]["smallest_seen"], 0.004);
-  EXPECT_EQ(json["could_hide"][0]["unit"], "kg");
+  EXPECT_EQ(json["left"], Json::parse(R"({"share": {"fit": 0.02, "check": null},
+      "times_noise": {"fit": 1.03, "check": 1.08},
+      "channels": [{"name": "force", "times_noise": 1.2, "share": null}],
+      "symptoms": ["time_shift"]})"));
+  EXPECT_EQ(json["detectable_limits"][0]["smallest_seen"], 0.004);
+  EXPECT_EQ(json["detectable_limits"][0]["unit"], "kg");
   EXPECT_EQ(json["next_experiment"], "Pull \"stem\".");
   EXPECT_EQ(json["extended_plant"], "extended.plant.yaml");
   EXPECT_EQ(json["simulations"], 412);
   EXPECT_EQ(json["seconds"], 38.5);
+}
+
+TEST(Verdict, HasItsOldKeysForOneRelease) {
+  const Json json = Json::parse(to_json(full()));
+  EXPECT_EQ(json["rivals"], json["competing"]);
+  EXPECT_EQ(json["could_hide"], json["detectable_limits"]);
 }
 
 TEST(Verdict, PutsComponentsIntoLists) {
@@ -103,7 +114,7 @@ TEST(Verdict, IsNullWhereThereIsNoValue) {
   const Json json = Json::parse(to_json(full()));
   EXPECT_TRUE(json["causes"][0]["parameters"]["stiffness"]["high"].is_null());
   EXPECT_EQ(json["causes"][1]["where"], Json({{"marker", "m2"}}));  // it has no place on a curve
-  EXPECT_TRUE(json["could_hide"][1]["smallest_seen"].is_null());
+  EXPECT_TRUE(json["detectable_limits"][1]["smallest_seen"].is_null());
   const Json bare = Json::parse(to_json(Verdict{}));
   EXPECT_EQ(keys(bare), keys(json));
   for (const char* model : {"nominal", "refitted", "extended"}) {

@@ -44,6 +44,10 @@ TEST_F(DiagnosedScene, ASensorsBiasIsNamedWithItsSize) {
   EXPECT_THAT(found.verdict.symptoms,
               Contains(testing::AllOf(Field(&SymptomNumber::name, "wrench_at_rest"),
                                       Field(&SymptomNumber::shows, true))));
+  const LeftMisfit& left = found.verdict.left;
+  EXPECT_LT(*left.share.fit, 0.1);
+  EXPECT_THAT(left.channels, Contains(Field(&LeftMisfit::Channel::name, "moment")));
+  EXPECT_THAT(left.symptoms, testing::Not(Contains("wrench_at_rest")));
 }
 
 TEST_F(DiagnosedScene, AMovedPlantIsNamedAndItsSceneRuns) {

@@ -33,7 +33,7 @@ class DiagnosedPlant : public DiagnosedScene {
   }
 };
 
-TEST_F(DiagnosedPlant, WhatCouldHideIsSmallerThanWhatIsFound) {
+TEST_F(DiagnosedPlant, DetectableLimitsAreSmallerThanWhatIsFound) {
   write_tables();
   const SceneDiagnosis found = diagnose({});
   ASSERT_EQ(found.verdict.outcome, Outcome::adequate) << found.text;
