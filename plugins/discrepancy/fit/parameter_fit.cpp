@@ -29,12 +29,14 @@ struct Nominal {
 };
 
 // A material's factor is told as the value itself where the plant states one.
-Nominal nominal(const plant::MaterialValues& material, const std::string& effect,
+Nominal nominal(const Experiment& experiment, const std::string& effect,
                 const FreeParameter& free) {
   const effects::EffectDefinition* known = effects::find_effect(effect);
   // A person knows a modulus in pascals, and would have to look up what a factor is on.
-  const auto own =
-      known && known->material ? plant::number_of(material, *known->material) : std::nullopt;
+  // Of several plants each has its own.
+  const auto own = known && known->material && experiment.plants.size() == 1
+                       ? plant::number_of(experiment.plant().material, *known->material)
+                       : std::nullopt;
   if (own) return {*own, std::string(known->material->unit)};
   return {1.0, free.unit.empty() ? "1" : free.unit};
 }
@@ -61,17 +63,8 @@ constexpr NoiseRule noise_rule{0.5, false};
 /// One fit on its way.
 class Run {
  public:
-  // The set-up refers to the admitted experiment, which is this object's own: what was left out of
-  // the data there is left out of everything here.
-  Run(const Experiment& experiment, const std::vector<Hypothesis>& starts,
-      const ParameterFitOptions& options)
-      : options_(options),
-        admission_(admitted(experiment)),
-        starts_(starts),
-        setup_(admission_.experiment, options.threads, noise_rule, options.stop,
-               default_settings()) {
-    for (const std::string& remark : admission_.remarks) result_.remarks.push_back(remark + ".");
-  }
+  Run(FitGround& ground, const std::vector<Hypothesis>& starts, const ParameterFitOptions& options)
+      : options_(options), ground_(ground), starts_(starts) {}
 
   ParameterFit run() {
     const Clock::time_point began = Clock::now();
@@ -79,7 +72,7 @@ class Run {
     // Intervals need all three: each of them moves the cost's minimum or its curvature.
     choose_start();
     refine();
-    setup_.renew_noise(result_.summary.hypothesis);
+    ground_.renew_noise(result_.summary.hypothesis);
     // A profile walks along valleys that the fit did not see, and may come out lower. Then that is
     // the fit. A few times and not until nothing changes, because a round takes many refits.
     for (int round = 0; round < most_rounds && !stopped(); ++round) {
@@ -87,28 +80,16 @@ class Run {
       polish();
       if (!profile_all(round + 1 == most_rounds)) break;
     }
-    measure_trials();
-    result_.position_noise = setup_.data().position_noise();
-    result_.force_noise = setup_.data().force_noise();
-    result_.numerics = setup_.numerics();
+    ground_.describe(result_.summary.hypothesis, result_);
     result_.stopped = stopped();
-    result_.simulations = setup_.simulations();
     result_.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     return std::move(result_);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  static Admission admitted(const Experiment& experiment) {
-    Admission admission = admit(experiment);
-    Diagnostics diagnostics;
-    // Data that contradict themselves have no parameters. They end as a fault of the file.
-    add_refusal(diagnostics, admission);
-    if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
-    return admission;
-  }
-  const Experiment& experiment() const { return setup_.experiment(); }
-  bool stopped() const { return setup_.stopped(); }
+  const Experiment& experiment() const { return ground_.experiment(); }
+  bool stopped() const { return options_.stop && *options_.stop; }
   void say(const std::string& what, double share) const {
     if (options_.progress) options_.progress(what, share);
   }
@@ -138,11 +119,11 @@ class Run {
     // A model with nothing free is only looked at.
     if (starts_.front().size() > 0) draw_starts();
     result_.starts = static_cast<int>(starts_.size());
-    FitOptions first = setup_.options();
+    FitOptions first = ground_.options();
     // Over the first part nothing is out of phase yet, and a cost tells which start is the nearest
     // one.
-    first.horizon = first.settings->budget.baseline_horizon;
-    Evaluator with = setup_.evaluator();
+    first.horizon = ground_.first_horizon();
+    ResidualSource& with = ground_.source();
     const Scan looked = scan(with, starts_, first);
     std::vector<int> order(starts_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -160,7 +141,7 @@ class Run {
     // Asked at the fitted start, where an effect is as large as it seems to be. At its first value
     // it may move nothing, and be fitted to something.
     keep_what_is_seen(fits.front().hypothesis);
-    result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
+    result_.summary = fit(with, result_.summary.hypothesis, ground_.options());
   }
 
   // What moves no sample is held where it was given: a fit would only walk about. A number that
@@ -182,13 +163,13 @@ class Run {
       // where it stands now.
       models.back().set_value(p, starts_.front().value(p));
     }
-    Evaluator with = setup_.evaluator();
+    ResidualSource& with = ground_.source();
     // Over the whole records: what the first part does not show a later one may.
-    const Eigen::MatrixXd r = with.residuals(models, setup_.options());
+    const Eigen::MatrixXd r = with.residuals(models, ground_.options());
     const auto moves = [&](int model) {
       // The largest change of any sample: a number may be seen in one sample alone.
       return (r.col(model) - r.col(0)).cwiseAbs().maxCoeff() >=
-             setup_.options().settings->accuracy.seen;
+             ground_.options().settings->accuracy.seen;
     };
     Hypothesis& kept = result_.summary.hypothesis;
     kept = found;
@@ -211,31 +192,30 @@ class Run {
   }
 
   void refine() {
-    const NumericsCheck check = setup_.refine(
-        result_.summary,
-        {[this](int round) { say("checking our own numerical error", 0.1 + 0.05 * round); }, {}});
-    result_.numerical_error = check.largest;
+    result_.numerical_error = ground_.refine(result_.summary, [this](int round) {
+      say("checking our own numerical error", 0.1 + 0.05 * round);
+    });
     // Counted before the mesh's share joins them. That one is a nuisance that nobody asked for, and
     // has no interval.
     asked_ = result_.summary.hypothesis.size();
     // Which mesh the modulus came with is not known. Without this freedom an interval would leave
     // out the largest doubt of precise data.
-    result_.summary.hypothesis.add(mesh_nuisance());
-    Evaluator with = setup_.evaluator();
-    result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
+    result_.summary.hypothesis.add(ground_.nuisance());
+    ResidualSource& with = ground_.source();
+    result_.summary = fit(with, result_.summary.hypothesis, ground_.options());
   }
 
   // To the bottom: an interval's end is a matter of nats, not of a share of the cost.
   void polish() {
-    Evaluator with = setup_.evaluator();
-    result_.summary = fit(with, result_.summary.hypothesis, setup_.options());
-    FitOptions fine = setup_.options();
+    ResidualSource& with = ground_.source();
+    result_.summary = fit(with, result_.summary.hypothesis, ground_.options());
+    FitOptions fine = ground_.options();
     fine.least_step = std::min(fine.least_step, 0.01);
     result_.summary = fit(with, result_.summary.hypothesis, fine);
     // More than noise is left where the model is not the plant. Intervals of noise alone would then
     // be too sure of it by this factor.
     result_.spread =
-        std::sqrt(std::max(1.0, 2.0 * result_.summary.cost / std::max(1, setup_.samples())));
+        std::sqrt(std::max(1.0, 2.0 * result_.summary.cost / std::max(1, result_.summary.samples)));
   }
 
   // True: a better fit turned up on the way, and the intervals must be done again. Never so in the
@@ -277,8 +257,8 @@ class Run {
   }
 
   Profile profiled(int p) {
-    Evaluator with = setup_.evaluator();
-    return profile(with, result_.summary, p, setup_.options(),
+    ResidualSource& with = ground_.source();
+    return profile(with, result_.summary, p, ground_.options(),
                    // The unit in which a deviance counts is what the model leaves, where that is
                    // more than noise.
                    deviance95 * result_.spread * result_.spread);
@@ -291,7 +271,7 @@ class Run {
     alone.effects = result_.summary.hypothesis.effects;
     alone.free = {free};
     const plant::Effect& effect = alone.effects[free.effect];
-    const Nominal unit = nominal(experiment().plant().material, effect.name, free);
+    const Nominal unit = nominal(experiment(), effect.name, free);
     FittedParameter made;
     made.name = name_of(effect, free);
     made.unit = unit.unit;
@@ -305,7 +285,7 @@ class Run {
   void report(int p, const Profile& found) {
     const FreeParameter& free = result_.summary.hypothesis.free[p];
     const plant::Effect& effect = result_.summary.hypothesis.effects[free.effect];
-    const double unit = nominal(experiment().plant().material, effect.name, free).value;
+    const double unit = nominal(experiment(), effect.name, free).value;
     FittedParameter made = described(free);
     made.low = unit * free.to_value(found.low.unknown);
     made.high = unit * free.to_value(found.high.unknown);
@@ -318,32 +298,75 @@ class Run {
     result_.parameters.push_back(made);
   }
 
-  void measure_trials() {
-    // Of trials held out, too: their error beside that of the fitted ones tells whether the numbers
-    // carry over.
-    const auto predicted = setup_.predictions(std::span(&result_.summary.hypothesis, 1)).front();
-    const std::vector<int>& check = setup_.check_trials();
-    for (int t = 0; t < static_cast<int>(predicted.size()); ++t)
-      result_.trials.push_back({experiment().trials[t].name,
-                                std::ranges::find(check, t) != check.end(),
-                                setup_.data().rms(std::span(&t, 1), predicted)});
-  }
-
   ParameterFitOptions options_;
-  // Before what refers to it: members are made in this order.
-  Admission admission_;
+  FitGround& ground_;
   std::vector<Hypothesis> starts_;
-  FitSetup setup_;
   std::vector<FreeParameter> unseen_;
   int asked_ = 0;  // free parameters that were asked for and are seen, the first of the model's
   ParameterFit result_;
 };
 
+/// A single plant. The set-up refers to the admitted experiment, which is this object's own: what
+/// was left out of the data there is left out of everything here.
+class PlantGround : public FitGround {
+ public:
+  PlantGround(const Experiment& experiment, const ParameterFitOptions& options)
+      : admission_(admitted(experiment)),
+        setup_(admission_.experiment, options.threads, noise_rule, options.stop,
+               default_settings()) {}
+
+  const Experiment& experiment() const override { return setup_.experiment(); }
+  ResidualSource& source() override { return evaluator_.emplace(setup_.evaluator()); }
+  FitOptions options() const override { return setup_.options(); }
+  double first_horizon() const override { return options().settings->budget.baseline_horizon; }
+  double refine(FitSummary& model, const std::function<void(int)>& begin) override {
+    return setup_.refine(model, {begin, {}}).largest;
+  }
+  Hypothesis nuisance() const override { return mesh_nuisance(); }
+  void renew_noise(const Hypothesis& model) override { setup_.renew_noise(model); }
+  void describe(const Hypothesis& model, ParameterFit& fit) override {
+    // Of trials held out, too: their error beside that of the fitted ones tells whether the numbers
+    // carry over.
+    const auto predicted = setup_.predictions(std::span(&model, 1)).front();
+    const std::vector<int>& check = setup_.check_trials();
+    for (int t = 0; t < static_cast<int>(predicted.size()); ++t)
+      fit.trials.push_back({experiment().trials[t].name, std::ranges::find(check, t) != check.end(),
+                            setup_.data().rms(std::span(&t, 1), predicted)});
+    fit.noise = {{"position_std", setup_.data().position_noise().std},
+                 {"force_std", setup_.data().force_noise().std}};
+    fit.distance = setup_.numerics().distance;
+    fit.dt = setup_.numerics().dt;
+    fit.simulations = setup_.simulations();
+    for (const std::string& remark : admission_.remarks) fit.remarks.push_back(remark + ".");
+  }
+
+ private:
+  static Admission admitted(const Experiment& experiment) {
+    Admission admission = admit(experiment);
+    Diagnostics diagnostics;
+    // Data that contradict themselves have no parameters. They end as a fault of the file.
+    add_refusal(diagnostics, admission);
+    if (diagnostics.has_errors()) throw InvalidFile(diagnostics);
+    return admission;
+  }
+
+  // Before what refers to it: members are made in this order.
+  Admission admission_;
+  FitSetup setup_;
+  std::optional<Evaluator> evaluator_;
+};
+
 }  // namespace
+
+ParameterFit fit_parameters(FitGround& ground, const std::vector<Hypothesis>& starts,
+                            const ParameterFitOptions& options) {
+  return Run(ground, starts, options).run();
+}
 
 ParameterFit fit_parameters(const Experiment& experiment, const std::vector<Hypothesis>& starts,
                             const ParameterFitOptions& options) {
-  return Run(experiment, starts, options).run();
+  PlantGround ground(experiment, options);
+  return fit_parameters(ground, starts, options);
 }
 
 }  // namespace pedicel::discrepancy

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugins/discrepancy/fit/fit_parts.h"
-#include "plugins/discrepancy/fit/numerics.h"
 #include "plugins/discrepancy/fit/profile.h"
 
 namespace pedicel::discrepancy {
@@ -44,8 +44,8 @@ struct ParameterFit {
   FitSummary summary;  ///< its hypothesis also holds what was not seen, as it was given
   std::vector<FittedParameter> parameters;
   std::vector<TrialError> trials;
-  Noise position_noise, force_noise;
-  Numerics numerics;
+  std::vector<std::pair<std::string, double>> noise;  ///< "position_std" and its like, in SI units
+  double distance = 0.0, dt = 0.0;                    ///< m between nodes, s
   double numerical_error = 0.0;  ///< RMS over the noise, before it was corrected for
   /// RMS of the whitened residual where that is above 1: more than noise is left, and the intervals
   /// are wider by it.
@@ -58,9 +58,33 @@ struct ParameterFit {
   double seconds = 0.0;
 };
 
-/// Fits the free parameters of `starts` (the same model at several values) to the experiment's fit
-/// trials, with the noise, the check of step and mesh and the freedom of the mesh of a diagnosis.
-/// Throws InvalidFile where the data cannot be used or the plant not be built.
+/// An experiment that is ready to be fitted.
+class FitGround {
+ public:
+  virtual ~FitGround() = default;
+  virtual const Experiment& experiment() const = 0;
+  /// Valid until refine() or renew_noise().
+  virtual ResidualSource& source() = 0;
+  virtual FitOptions options() const = 0;  ///< of the trials to be fitted
+  /// Of the first look from several starts, a share of each trial.
+  virtual double first_horizon() const { return 1.0; }
+  /// Checks mesh and step about a model, and refits it where they change. Our own error, RMS over
+  /// the noise.
+  virtual double refine(FitSummary&, const std::function<void(int round)>&) { return 0.0; }
+  /// Unknowns that nobody asked for, and that an interval must leave free.
+  virtual Hypothesis nuisance() const { return {}; }
+  virtual void renew_noise(const Hypothesis& model) = 0;
+  /// Trials, noise, mesh and step, as they are told.
+  virtual void describe(const Hypothesis& model, ParameterFit& fit) = 0;
+};
+
+/// Fits the free parameters of `starts` (the same model at several values) to the trials to be
+/// fitted. Throws InvalidFile where the plant cannot be built.
+ParameterFit fit_parameters(FitGround& ground, const std::vector<Hypothesis>& starts,
+                            const ParameterFitOptions& options);
+
+/// The same of a single plant, with the noise, the check of step and mesh and the freedom of the
+/// mesh of a diagnosis. Throws InvalidFile where the data cannot be used, too.
 ParameterFit fit_parameters(const Experiment& experiment, const std::vector<Hypothesis>& starts,
                             const ParameterFitOptions& options);
 

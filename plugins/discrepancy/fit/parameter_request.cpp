@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/core/check.h"
-#include "plugins/discrepancy/fit/causes.h"
+#include "engine/core/joined.h"
 #include "plugins/effects/registry/effect_definition.h"
 
 namespace pedicel::discrepancy {
@@ -45,8 +45,9 @@ plant::CurvePlace parse_place(const std::string& word, const std::string& text,
   if (!at || *at < 0.0 || *at > 1.0)
     refuse(word, "the place is \"" + text + "\", expected CURVE:AT with AT from 0 to 1");
   const plant::CurvePlace place{text.substr(0, colon), *at, {}};
-  const auto& curves = experiment.plant().curves;
-  if (std::ranges::none_of(curves, [&](const auto& c) { return c.name == place.curve; }))
+  if (std::ranges::none_of(experiment.plants, [&](const ExperimentPlant& plant) {
+        return plant.file.curve_index(place.curve) >= 0;
+      }))
     // Here and not by the simulator, which would refuse it later and without the word.
     refuse(word, "the plant has no curve \"" + place.curve + "\"");
   return place;
@@ -60,7 +61,7 @@ std::string factor_names() {
   return names;
 }
 
-Word parse(const std::string& text, const Experiment& experiment) {
+Word parse(const std::string& text, const Experiment& experiment, const FitVocabulary& known) {
   Word word;
   word.text = text;
   std::string rest = text;
@@ -81,19 +82,18 @@ Word parse(const std::string& text, const Experiment& experiment) {
   const Hypothesis base = baseline();
   const bool material =
       std::ranges::any_of(base.effects, [&](const auto& e) { return e.name == word.effect; });
-  const effects::EffectDefinition* kind = effects::find_effect(word.effect);
+  const std::optional<EffectKind> kind = known.kind(word.effect);
   // The name of an effect alone could mean any of its numbers, so it is not taken for all of them.
   if (!kind || (dot == std::string::npos && !material))
     refuse(text, "expected " + factor_names() + ", or EFFECT.PARAMETER of a known effect");
   // A place is no parameter of an effect, but a fit may move it like one.
   const bool moves = kind->needs_place && word.parameter == "at";
-  std::string known;
   // A refusal says what would have been right.
-  for (const effects::EffectParameter& p : kind->parameters)
-    known += (known.empty() ? "" : ", ") + p.name;
-  if (!moves && std::ranges::none_of(kind->parameters,
+  const std::string names =
+      joined(*kind->parameters, [](const auto& p) -> const std::string& { return p.name; });
+  if (!moves && std::ranges::none_of(*kind->parameters,
                                      [&](const auto& p) { return p.name == word.parameter; }))
-    refuse(text, word.effect + " has no \"" + word.parameter + "\", expected one of " + known);
+    refuse(text, word.effect + " has no \"" + word.parameter + "\", expected one of " + names);
   // A place that is ignored would look as if the effect had been put there.
   if (word.place && !kind->needs_place) refuse(text, word.effect + " has no place");
   return word;
@@ -177,14 +177,13 @@ bool is_of(const FreeParameter& free, const std::string& parameter) {
 }
 
 // What of a diagnosis's start is free here, and what is given.
-Hypothesis adapted(Hypothesis start, const Group& group) {
-  const effects::EffectDefinition* kind = effects::find_effect(group.effect);
+Hypothesis adapted(Hypothesis start, const Group& group, const EffectKind& kind) {
   plant::Effect& effect = start.effects[0];
   // A diagnosis tries several places; here one was asked for.
   if (group.place) effect.place = *group.place;
   for (const Word& word : group.words)
     if (word.value)
-      for (const effects::EffectParameter& p : kind->parameters)
+      for (const effects::EffectParameter& p : *kind.parameters)
         if (p.name == word.parameter) give(word, effect, p);
   // What was not named stays at the diagnosis's first value. check_words() sees to it that no size
   // is among these in silence.
@@ -197,8 +196,8 @@ Hypothesis adapted(Hypothesis start, const Group& group) {
   return start;
 }
 
-void check_words(const Group& group, const std::vector<Hypothesis>& starts) {
-  const effects::EffectDefinition* kind = effects::find_effect(group.effect);
+void check_words(const Group& group, const EffectKind& kind,
+                 const std::vector<Hypothesis>& starts) {
   const auto spoken_of = [&](const std::string& parameter) {
     return std::ranges::any_of(group.words,
                                [&](const Word& w) { return w.parameter == parameter; });
@@ -212,11 +211,11 @@ void check_words(const Group& group, const std::vector<Hypothesis>& starts) {
     // Told with what would do. Some parameters have no unknown in any fit.
     if (!fits) refuse(word.text, "cannot be fitted; give it as " + word.text + "=VALUE");
   }
-  if (kind->needs_place && !group.place)
+  if (kind.needs_place && !group.place)
     // A diagnosis looks for the place. Its first guess would be taken for what was asked.
     refuse(group.words.front().text, group.effect + " needs a place: @CURVE:AT");
   // A size that nobody speaks of would be a diagnosis's first guess, and silently so.
-  for (const effects::EffectParameter& p : kind->parameters)
+  for (const effects::EffectParameter& p : *kind.parameters)
     // The curvature k0 only scales another number, and is a diagnosis's own.
     if (p.required && p.name != "k0" && !spoken_of(p.name))
       refuse(group.words.front().text, group.effect + " also needs " + p.name + ": name it (" +
@@ -224,9 +223,17 @@ void check_words(const Group& group, const std::vector<Hypothesis>& starts) {
                                            group.effect + "." + p.name + "=VALUE)");
 }
 
-std::vector<Hypothesis> starts_of(const Group& group, const std::vector<Cause>& causes) {
+// Whether a start is of the joint, plant or sensor that was given.
+bool is_meant(const Hypothesis& start, const Group& group) {
+  return std::ranges::all_of(group.words, [&](const Word& word) {
+    const auto own = start.effects[0].words.find(word.parameter);
+    return !word.value || own == start.effects[0].words.end() || own->second == *word.value;
+  });
+}
+
+std::vector<Hypothesis> starts_of(const Group& group, const FitVocabulary& known) {
   std::vector<Hypothesis> starts = material_starts(group.effect);
-  for (const Cause& cause : causes)
+  for (const Cause& cause : known.causes)
     // The same starts as a diagnosis, so that both find the same valleys. Those led by symptoms are
     // not among them: no symptom was looked for.
     if (cause.name == group.effect) starts = cause.starts;
@@ -234,10 +241,15 @@ std::vector<Hypothesis> starts_of(const Group& group, const std::vector<Cause>& 
     // An effect without a start cannot be seen here, whoever asks for it. A fit of it would end
     // anywhere and say so with an interval.
     refuse(group.words.front().text, group.effect + " cannot be fitted to this experiment");
-  check_words(group, starts);
+  const EffectKind kind = *known.kind(group.effect);
+  check_words(group, kind, starts);
+  std::vector<Hypothesis> meant = starts;
+  std::erase_if(meant, [&](const Hypothesis& start) { return !is_meant(start, group); });
+  // A word that no start has, such as the kind of a law, is given to all of them.
+  if (meant.empty()) meant = std::move(starts);
   std::vector<Hypothesis> result;
-  for (const Hypothesis& start : starts) {
-    const Hypothesis one = adapted(start, group);
+  for (const Hypothesis& start : meant) {
+    const Hypothesis one = adapted(start, group, kind);
     // Starts that differed in what is given now are one, and would be fitted several times.
     const bool known = std::ranges::any_of(
         result, [&](const Hypothesis& other) { return other.effects[0] == one.effects[0]; });
@@ -248,7 +260,18 @@ std::vector<Hypothesis> starts_of(const Group& group, const std::vector<Cause>& 
 
 }  // namespace
 
-std::vector<Hypothesis> requested_starts(const Experiment& experiment,
+FitVocabulary plant_vocabulary(const Experiment& experiment) {
+  // More than a diagnosis tries: an effect may be no candidate there, and still be asked for by a
+  // person who has reasons.
+  return {fitted_causes(experiment, scales_of(experiment)),
+          [](const std::string& name) -> std::optional<EffectKind> {
+            const effects::EffectDefinition* known = effects::find_effect(name);
+            if (!known) return {};
+            return EffectKind{&known->parameters, known->needs_place};
+          }};
+}
+
+std::vector<Hypothesis> requested_starts(const Experiment& experiment, const FitVocabulary& known,
                                          const std::vector<std::string>& words) {
   std::vector<Word> parsed;
   for (const std::string& word : words) {
@@ -257,16 +280,13 @@ std::vector<Hypothesis> requested_starts(const Experiment& experiment,
       // The same number twice would be two unknowns for one thing, and neither would have an
       // interval.
       refuse(word, "is named twice");
-    parsed.push_back(parse(word, experiment));
+    parsed.push_back(parse(word, experiment, known));
   }
-  // More than a diagnosis tries: an effect may be no candidate there, and still be asked for by a
-  // person who has reasons.
-  const std::vector<Cause> causes = fitted_causes(experiment, scales_of(experiment));
   // One model that is empty, so that the first effect's starts are paired as those of every other
   // are.
   std::vector<Hypothesis> all{Hypothesis{}};
   for (const Group& one : group(parsed)) {
-    const std::vector<Hypothesis> starts = starts_of(one, causes);
+    const std::vector<Hypothesis> starts = starts_of(one, known);
     std::vector<Hypothesis> longer;
     // All pairs while they are few; beyond that each start with one of the others.
     const bool product = all.size() * starts.size() <= most_starts;
@@ -281,6 +301,11 @@ std::vector<Hypothesis> requested_starts(const Experiment& experiment,
     all = std::move(longer);
   }
   return all;
+}
+
+std::vector<Hypothesis> requested_starts(const Experiment& experiment,
+                                         const std::vector<std::string>& words) {
+  return requested_starts(experiment, plant_vocabulary(experiment), words);
 }
 
 }  // namespace pedicel::discrepancy

@@ -66,32 +66,31 @@ std::string to_json(const ParameterFit& fit) {
   for (const TrialError& t : fit.trials)
     trials.push_back(
         {{"name", t.trial}, {"use", t.check ? "check" : "fit"}, {"rms", number(t.rms)}});
-  const Json json = {{"format", "pedicel-fit"},
-                     {"version", 1},
-                     {"parameters", parameters},
-                     {"interval", "95 %, profile likelihood"},
-                     // So that somebody who knows the noise better can undo it.
-                     {"widened", number(fit.spread)},
-                     {"condition", number(summary.condition)},
-                     {"at_bound", bounds},
-                     {"trials", trials},
-                     {"trials_unit", "rms residual over the noise floor"},
-                     {"noise",
-                      {{"position_std", number(fit.position_noise.std)},
-                       {"force_std", number(fit.force_noise.std)}}},
-                     {"numerics",
-                      {{"distance", fit.numerics.distance},
-                       {"dt", fit.numerics.dt},
-                       {"error", number(fit.numerical_error)}}},
-                     // A nuisance, told because the modulus depends on it.
-                     {"mesh_share", number(summary.hypothesis.mesh_share())},
-                     {"converged", summary.converged},
-                     {"why", summary.why},
-                     {"remarks", fit.remarks},
-                     {"starts", fit.starts},
-                     {"refits", fit.refits},
-                     {"simulations", fit.simulations},
-                     {"seconds", fit.seconds}};
+  Json noise = Json::object();
+  for (const auto& [name, std] : fit.noise) noise[name] = number(std);
+  const Json json = {
+      {"format", "pedicel-fit"},
+      {"version", 1},
+      {"parameters", parameters},
+      {"interval", "95 %, profile likelihood"},
+      // So that somebody who knows the noise better can undo it.
+      {"widened", number(fit.spread)},
+      {"condition", number(summary.condition)},
+      {"at_bound", bounds},
+      {"trials", trials},
+      {"trials_unit", "rms residual over the noise floor"},
+      {"noise", noise},
+      {"numerics",
+       {{"distance", fit.distance}, {"dt", fit.dt}, {"error", number(fit.numerical_error)}}},
+      // A nuisance, told because the modulus depends on it.
+      {"mesh_share", number(summary.hypothesis.mesh_share())},
+      {"converged", summary.converged},
+      {"why", summary.why},
+      {"remarks", fit.remarks},
+      {"starts", fit.starts},
+      {"refits", fit.refits},
+      {"simulations", fit.simulations},
+      {"seconds", fit.seconds}};
   return json.dump(2);
 }
 

@@ -15,7 +15,7 @@ constexpr double cost_error = 0.01;  // nats a refit may be from its minimum
 /// A free parameter held at chosen values, the others refitted.
 class Held {
  public:
-  Held(Evaluator& evaluator, const FitSummary& fit, int parameter, const FitOptions& options)
+  Held(ResidualSource& evaluator, const FitSummary& fit, int parameter, const FitOptions& options)
       : evaluator_(evaluator), best_(fit), parameter_(parameter), options_(options) {
     // Differences of costs are what an interval is made of. Fits that end as early as others would
     // give ends that depend on where they gave up.
@@ -97,7 +97,7 @@ class Held {
     return best_others_ + moved / (last_unknown_ - best_unknown_) * (last_others_ - best_others_);
   }
 
-  Evaluator& evaluator_;
+  ResidualSource& evaluator_;
   const FitSummary& best_;
   int parameter_;
   FitOptions options_;
@@ -169,7 +169,7 @@ double objective(const FitSummary& fit) {
   return sum;
 }
 
-Profile profile(Evaluator& evaluator, const FitSummary& fit, int parameter,
+Profile profile(ResidualSource& evaluator, const FitSummary& fit, int parameter,
                 const FitOptions& options, double wanted) {
   Held held(evaluator, fit, parameter, options);
   const Hypothesis& model = fit.hypothesis;

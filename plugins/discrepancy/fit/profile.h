@@ -41,7 +41,7 @@ struct Profile {
   std::optional<FitSummary> better;  ///< a refit fitted better: start from it again
 };
 /// `wanted`: deviance of the ends. `fit` must have been made with the same options.
-Profile profile(Evaluator& evaluator, const FitSummary& fit, int parameter,
+Profile profile(ResidualSource& evaluator, const FitSummary& fit, int parameter,
                 const FitOptions& options, double wanted = deviance95);
 
 }  // namespace pedicel::discrepancy

@@ -13,6 +13,7 @@ Experiment without_trials(const world::Scene& scene, const robot::RobotDescripti
   Experiment experiment;
   experiment.scene = scene;
   if (robot) experiment.robot = *robot;
+  experiment.plants.clear();
   for (const world::ScenePlant& plant : scene.plants) {
     ExperimentPlant named;
     named.name = plant.name;
