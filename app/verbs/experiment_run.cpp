@@ -79,16 +79,6 @@ discrepancy::Experiment load_experiment(const std::filesystem::path& path,
   return *std::move(experiment);
 }
 
-discrepancy::Experiment load_plant_experiment(const ExperimentArguments& a) {
-  discrepancy::Experiment experiment = load_experiment(a.experiment);
-  if (experiment.has_robot())
-    throw UsageError(a.experiment +
-                     ": its model is a scene, a robot at plants, expected an experiment with "
-                     "`plant:`; `pedicel validate`, `observe`, `diagnose` and `lab` know "
-                     "experiments of scenes");
-  return experiment;
-}
-
 ProgressLine::Callback ProgressLine::callback(bool quiet) {
   if (quiet) return {};
   return [this](const std::string& what, double share) { show(what, share); };

@@ -51,9 +51,6 @@ void add_experiment_options(CLI::App& verb, ExperimentArguments& a, const Experi
 /// place of its own. Throws InvalidFile.
 discrepancy::Experiment load_experiment(const std::filesystem::path& path,
                                         const std::filesystem::path& scene = {});
-/// The experiment that was asked for, without a robot. Throws InvalidFile, and UsageError where it
-/// has one.
-discrepancy::Experiment load_plant_experiment(const ExperimentArguments& a);
 
 /// Says on standard error what is being done, how far it is and how long it will take: on a
 /// terminal in place, elsewhere a line for each new step.

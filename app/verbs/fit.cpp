@@ -38,8 +38,10 @@ int run(FitArguments& a, const CLI::App& verb) {
   options.seed = static_cast<std::uint64_t>(a.seed);
   options.parts = parts.parts();
   const discrepancy::ParameterFit fit = with_progress(a, options, [&](ProgressLine&) {
-    return robot ? fit_scene_parameters(experiment, starts, options)
-                 : fit_parameters(experiment, starts, options);
+    const auto ground = robot ? scene_ground(experiment, options.threads, options.stop)
+                              : plant_ground(experiment, options.threads, options.stop,
+                                             discrepancy::fit_noise_rule);
+    return fit_parameters(*ground, starts, options);
   });
   if (fit.stopped) return stop_exit_code();
   const std::filesystem::path folder = a.folder("fit_", experiment);

@@ -58,14 +58,6 @@ plant::PlantFile scene_plant(const world::ScenePlant& wanted, Diagnostics& diagn
   return std::move(*plant);
 }
 
-/// What a file says of itself; of a folder, that it is an experiment.
-std::string format_of(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) return "pedicel-experiment";
-  Diagnostics diagnostics;
-  const io::YamlNode root = io::load_yaml(file, diagnostics);
-  return root.is_map() && root.raw()["format"] ? root.raw()["format"].Scalar() : "";
-}
-
 /// The plant to simulate, in the place of the one that `experiment` has.
 void take_plant(const ObserveArguments& a, Experiment& experiment) {
   const std::filesystem::path model = a.model;
@@ -196,6 +188,13 @@ discrepancy::Experiment observed(const ObserveArguments& a, discrepancy::Experim
   if (a.noise_moment > 0.0) like.noise.moment_std = a.noise_moment;
   simulate(a, like);
   return like;
+}
+
+std::string format_of(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) return "pedicel-experiment";
+  Diagnostics diagnostics;
+  const io::YamlNode root = io::load_yaml(file, diagnostics);
+  return root.is_map() && root.raw()["format"] ? root.raw()["format"].Scalar() : "";
 }
 
 std::filesystem::path scene_of(const std::filesystem::path& model) {

@@ -43,6 +43,10 @@ int observe_verb(const ObserveArguments& arguments);
 /// `like` has no sample at all, it is a plan, and all of it is filled.
 discrepancy::Experiment observed(const ObserveArguments& arguments, discrepancy::Experiment like);
 
+/// What a file says of itself, "pedicel-scene" and its like; of a folder, that it is an experiment.
+/// Throws InvalidFile.
+std::string format_of(const std::filesystem::path& file);
+
 /// The scene to simulate: the file itself, or the scene of an experiment. Throws InvalidFile.
 std::filesystem::path scene_of(const std::filesystem::path& model);
 

@@ -11,6 +11,7 @@
 #include "engine/core/random.h"
 #include "engine/io/csv.h"
 #include "plugins/discrepancy/admission/admission.h"
+#include "plugins/discrepancy/fit/baseline_start.h"
 #include "plugins/discrepancy/fit/causes.h"
 #include "plugins/discrepancy/fit/fit_setup.h"
 #include "plugins/effects/registry/effect_definition.h"
@@ -56,10 +57,6 @@ std::string name_of(const plant::Effect& effect, const FreeParameter& free) {
   return name;
 }
 
-// What is stated counts, with the colour that the data show. An estimate far below what is stated
-// comes from stretches in which nothing moves, and says little of the rest.
-constexpr NoiseRule noise_rule{0.5, false};
-
 /// One fit on its way.
 class Run {
  public:
@@ -80,7 +77,9 @@ class Run {
       polish();
       if (!profile_all(round + 1 == most_rounds)) break;
     }
-    ground_.describe(result_.summary.hypothesis, result_);
+    measure_trials();
+    ground_.describe(result_);
+    result_.simulations = ground_.simulations();
     result_.stopped = stopped();
     result_.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     return std::move(result_);
@@ -298,6 +297,17 @@ class Run {
     result_.parameters.push_back(made);
   }
 
+  void measure_trials() {
+    // Of trials held out, too: their error beside that of the fitted ones tells whether the numbers
+    // carry over.
+    const std::vector<Misfit> misfits = ground_.misfits({&result_.summary.hypothesis, 1}).front();
+    const std::vector<int> check = ground_.check_trials();
+    for (std::size_t t = 0; t < misfits.size(); ++t)
+      result_.trials.push_back({experiment().trials[t].name,
+                                std::ranges::find(check, static_cast<int>(t)) != check.end(),
+                                misfits[t].rms()});
+  }
+
   ParameterFitOptions options_;
   FitGround& ground_;
   std::vector<Hypothesis> starts_;
@@ -310,10 +320,10 @@ class Run {
 /// was left out of the data there is left out of everything here.
 class PlantGround : public FitGround {
  public:
-  PlantGround(const Experiment& experiment, const ParameterFitOptions& options)
+  PlantGround(const Experiment& experiment, int threads, const std::atomic<bool>* stop,
+              const NoiseRule& rule)
       : admission_(admitted(experiment)),
-        setup_(admission_.experiment, options.threads, noise_rule, options.stop,
-               default_settings()) {}
+        setup_(admission_.experiment, threads, rule, stop, default_settings()) {}
 
   const Experiment& experiment() const override { return setup_.experiment(); }
   ResidualSource& source() override { return evaluator_.emplace(setup_.evaluator()); }
@@ -324,21 +334,31 @@ class PlantGround : public FitGround {
   }
   Hypothesis nuisance() const override { return mesh_nuisance(); }
   void renew_noise(const Hypothesis& model) override { setup_.renew_noise(model); }
-  void describe(const Hypothesis& model, ParameterFit& fit) override {
-    // Of trials held out, too: their error beside that of the fitted ones tells whether the numbers
-    // carry over.
-    const auto predicted = setup_.predictions(std::span(&model, 1)).front();
-    const std::vector<int>& check = setup_.check_trials();
-    for (int t = 0; t < static_cast<int>(predicted.size()); ++t)
-      fit.trials.push_back({experiment().trials[t].name, std::ranges::find(check, t) != check.end(),
-                            setup_.data().rms(std::span(&t, 1), predicted)});
+  std::vector<int> check_trials() const override { return setup_.check_trials(); }
+  Hypothesis baseline() override {
+    Evaluator with = setup_.evaluator();
+    std::vector<std::string> unseen;
+    return baseline_start(with, setup_.options(), unseen);
+  }
+  std::vector<std::vector<Misfit>> misfits(std::span<const Hypothesis> models) override {
+    std::vector<std::vector<Misfit>> all(models.size());
+    const auto predicted = setup_.predictions(models);
+    for (std::size_t m = 0; m < models.size(); ++m)
+      for (int t = 0; t < static_cast<int>(predicted[m].size()); ++t) {
+        const int count = setup_.data().samples(std::span(&t, 1));
+        const double rms = setup_.data().rms(std::span(&t, 1), predicted[m]);
+        all[m].push_back({rms * rms * count, count});
+      }
+    return all;
+  }
+  void describe(ParameterFit& fit) override {
     fit.noise = {{"position_std", setup_.data().position_noise().std},
                  {"force_std", setup_.data().force_noise().std}};
     fit.distance = setup_.numerics().distance;
     fit.dt = setup_.numerics().dt;
-    fit.simulations = setup_.simulations();
     for (const std::string& remark : admission_.remarks) fit.remarks.push_back(remark + ".");
   }
+  long simulations() const override { return setup_.simulations(); }
 
  private:
   static Admission admitted(const Experiment& experiment) {
@@ -363,9 +383,14 @@ ParameterFit fit_parameters(FitGround& ground, const std::vector<Hypothesis>& st
   return Run(ground, starts, options).run();
 }
 
+std::unique_ptr<FitGround> plant_ground(const Experiment& experiment, int threads,
+                                        const std::atomic<bool>* stop, const NoiseRule& rule) {
+  return std::make_unique<PlantGround>(experiment, threads, stop, rule);
+}
+
 ParameterFit fit_parameters(const Experiment& experiment, const std::vector<Hypothesis>& starts,
                             const ParameterFitOptions& options) {
-  PlantGround ground(experiment, options);
+  PlantGround ground(experiment, options.threads, options.stop, fit_noise_rule);
   return fit_parameters(ground, starts, options);
 }
 

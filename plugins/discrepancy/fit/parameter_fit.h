@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,6 +68,9 @@ class FitGround {
   /// Valid until refine() or renew_noise().
   virtual ResidualSource& source() = 0;
   virtual FitOptions options() const = 0;  ///< of the trials to be fitted
+  virtual std::vector<int> check_trials() const = 0;
+  /// Where fits of what every model has begin: modulus, density, damping.
+  virtual Hypothesis baseline() = 0;
   /// Of the first look from several starts, a share of each trial.
   virtual double first_horizon() const { return 1.0; }
   /// Checks mesh and step about a model, and refits it where they change. Our own error, RMS over
@@ -74,9 +79,21 @@ class FitGround {
   /// Unknowns that nobody asked for, and that an interval must leave free.
   virtual Hypothesis nuisance() const { return {}; }
   virtual void renew_noise(const Hypothesis& model) = 0;
-  /// Trials, noise, mesh and step, as they are told.
-  virtual void describe(const Hypothesis& model, ParameterFit& fit) = 0;
+  /// Of each trial, over the noise of a sample, one column a model.
+  virtual std::vector<std::vector<Misfit>> misfits(std::span<const Hypothesis> models) = 0;
+  /// Noise, mesh and step, and what is to be said of the data.
+  virtual void describe(ParameterFit& fit) = 0;
+  virtual long simulations() const = 0;
 };
+
+/// Of fits that are asked for. What is stated counts, with the colour that the data show: an
+/// estimate far below what is stated comes from stretches in which nothing moves, and says little
+/// of the rest.
+inline constexpr NoiseRule fit_noise_rule{0.5, false};
+
+/// A single plant. Throws InvalidFile where its data cannot be used.
+std::unique_ptr<FitGround> plant_ground(const Experiment& experiment, int threads,
+                                        const std::atomic<bool>* stop, const NoiseRule& rule = {});
 
 /// Fits the free parameters of `starts` (the same model at several values) to the trials to be
 /// fitted. Throws InvalidFile where the plant cannot be built.

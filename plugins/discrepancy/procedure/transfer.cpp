@@ -1,5 +1,6 @@
 #include "plugins/discrepancy/procedure/transfer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -7,8 +8,6 @@
 #include "engine/core/check.h"
 #include "plugins/discrepancy/admission/admission.h"
 #include "plugins/discrepancy/data/sentence.h"
-#include "plugins/discrepancy/fit/baseline_start.h"
-#include "plugins/discrepancy/fit/fit_setup.h"
 #include "plugins/discrepancy/procedure/diagnosis.h"
 #include "plugins/discrepancy/select/findings.h"
 #include "plugins/effects/registry/effect_definition.h"
@@ -19,20 +18,12 @@ namespace {
 
 void check_places(const Hypothesis& effects, const Experiment& experiment) {
   for (const plant::Effect& effect : effects.effects)
-    if (effect.place && experiment.plant().curve_index(effect.place->curve) < 0)
+    if (effect.place && std::ranges::none_of(experiment.plants, [&](const ExperimentPlant& plant) {
+          return plant.file.curve_index(effect.place->curve) >= 0;
+        }))
       throw UsageError(effect.name + " sits on curve \"" + effect.place->curve +
                        "\", which the other plant does not have, expected plants whose curves "
                        "have the same names");
-}
-
-// Of what makes the first plant another one than its file says, nothing belongs to the second.
-Hypothesis carried(const plant::PlantFile& extended) {
-  Hypothesis effects;
-  for (const plant::Effect& effect : extended.effects) {
-    const effects::EffectDefinition* known = effects::find_effect(effect.name);
-    if (known && known->home != effects::Home::material) effects.effects.push_back(effect);
-  }
-  return effects;
 }
 
 std::vector<std::pair<std::string, double>> factors(const Hypothesis& model) {
@@ -47,6 +38,15 @@ nlohmann::ordered_json number(const std::optional<double>& value) {
 }
 
 }  // namespace
+
+std::vector<plant::Effect> carried_effects(const std::vector<plant::Effect>& effects) {
+  std::vector<plant::Effect> carried;
+  for (const plant::Effect& effect : effects) {
+    const effects::EffectDefinition* known = effects::find_effect(effect.name);
+    if (!known || known->home != effects::Home::material) carried.push_back(effect);
+  }
+  return carried;
+}
 
 std::string Transfer::sentence() const {
   if (!refusal.empty()) return "The data cannot be used: " + refusal;
@@ -66,76 +66,76 @@ std::string Transfer::sentence() const {
   return "It does not carry over: the error does not fall" + sizes;
 }
 
-Transfer transfer(const plant::PlantFile& extended, const Experiment& given,
+Transfer transfer(FitGround& ground, const std::vector<plant::Effect>& carried,
                   const TransferOptions& options) {
   const auto say = [&](const char* what, double share) {
     if (options.progress) options.progress(what, share);
   };
-  const auto stopped = [&] { return options.stop && *options.stop; };
   Transfer result;
-  Admission admission = admit(given);
-  if (!admission.refusal.empty()) {
-    result.refusal = admission.refusal;
-    return result;
-  }
-  const Experiment& experiment = admission.experiment;
-  const Hypothesis effects = carried(extended);
-  check_places(effects, experiment);
-  for (const plant::Effect& effect : effects.effects) result.effects.push_back(effect.name);
+  Hypothesis effects;
+  effects.effects = carried;
+  check_places(effects, ground.experiment());
+  for (const plant::Effect& effect : carried) result.effects.push_back(effect.name);
 
   say("fitting modulus, density and damping", 0.0);
-  FitSetup setup(experiment, options.threads, NoiseRule{}, options.stop, options.settings);
-  std::vector<std::string> unseen;
-  Evaluator evaluator = setup.evaluator();
-  const std::array horizons{options.settings.budget.baseline_horizon, 1.0};
-  FitSummary base = fit_growing(evaluator, baseline_start(evaluator, setup.options(), unseen),
-                                setup.options(), horizons);
-  if (!stopped()) {
+  const std::array horizons{ground.first_horizon(), 1.0};
+  FitSummary base = fit_growing(ground.source(), ground.baseline(), ground.options(), horizons);
+  if (!options.stopped()) {
     say("checking our own numerical error", 0.3);
-    setup.refine(base, {[](int) {}, [](const NumericsCheck&) {}});
-    setup.renew();
-    base.hypothesis.add(mesh_nuisance());
-    Evaluator fine = setup.evaluator();
-    base = fit(fine, base.hypothesis, setup.options());
+    ground.refine(base, [](int) {});
+    base.hypothesis.add(ground.nuisance());
+    base = fit(ground.source(), base.hypothesis, ground.options());
   }
   // From the refitted numbers: the effects seldom move them far.
   Hypothesis with = base.hypothesis;
   with.add(effects);
-  Evaluator fine = setup.evaluator();
   say("fitting them beside what was carried over", 0.6);
-  const FitSummary both = fit_growing(fine, with, setup.options(), horizons);
+  const FitSummary both = fit_growing(ground.source(), with, ground.options(), horizons);
   // The better model shows the noise better.
-  setup.renew_noise(both.cost < base.cost ? both.hypothesis : base.hypothesis);
-  Evaluator again = setup.evaluator();
-  base = refit(again, base, setup.options());
-  with = refit(again, both, setup.options()).hypothesis;
-  result.stopped = stopped();
+  ground.renew_noise(both.cost < base.cost ? both.hypothesis : base.hypothesis);
+  base = refit(ground.source(), base, ground.options());
+  with = refit(ground.source(), both, ground.options()).hypothesis;
+  result.stopped = options.stopped();
   if (result.stopped) return result;
 
   say("comparing", 0.9);
   const std::array models{Hypothesis{}, base.hypothesis, with};
-  const auto predictions = setup.predictions(models);
+  const auto misfits = ground.misfits(models);
+  const auto sum_of = [&](Model model, const std::vector<int>& trials) {
+    Misfit sum;
+    for (const int t : trials) sum += misfits[model][static_cast<std::size_t>(t)];
+    return sum;
+  };
   const auto errors_of = [&](const std::vector<int>& trials) {
     Errors errors;
     if (trials.empty()) return errors;
-    errors.nominal = setup.data().rms(trials, predictions[nominal]);
-    errors.refitted = setup.data().rms(trials, predictions[refitted]);
-    errors.extended = setup.data().rms(trials, predictions[Model::extended]);
+    errors.nominal = sum_of(nominal, trials).rms();
+    errors.refitted = sum_of(refitted, trials).rms();
+    errors.extended = sum_of(Model::extended, trials).rms();
     return errors;
   };
-  result.fit = errors_of(setup.options().trials);
-  result.check = errors_of(setup.check_trials());
+  const std::vector<int> fitted = ground.options().trials, check = ground.check_trials();
+  result.fit = errors_of(fitted);
+  result.check = errors_of(check);
   const bool held_out = result.check.refitted.has_value();
   const Errors& errors = held_out ? result.check : result.fit;
-  const int samples =
-      setup.data().samples(held_out ? setup.check_trials() : setup.options().trials);
+  const int samples = sum_of(refitted, held_out ? check : fitted).count;
   const double scatter = interval95 / std::sqrt(2.0 * std::max(1, samples));
   if (errors.refitted && *errors.refitted - 1.0 > scatter)
     result.gain = (*errors.refitted - *errors.extended) / (*errors.refitted - 1.0);
   result.refitted = factors(base.hypothesis);
   result.extended = factors(with);
-  result.simulations = setup.simulations();
+  result.simulations = ground.simulations();
   return result;
+}
+
+Transfer transfer(const plant::PlantFile& extended, const Experiment& experiment,
+                  const TransferOptions& options) {
+  Transfer refused;
+  refused.refusal = admit(experiment).refusal;
+  if (!refused.refusal.empty()) return refused;
+  return transfer(*plant_ground(experiment, options.threads, options.stop),
+                  carried_effects(extended.effects), options);
 }
 
 std::string to_json(const Transfer& transfer) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "plugins/discrepancy/data/experiment.h"
+#include "plugins/discrepancy/fit/parameter_fit.h"
 #include "plugins/discrepancy/select/verdict.h"
-#include "plugins/discrepancy/settings/diagnosis_settings.h"
 
 namespace pedicel::discrepancy {
 
@@ -16,7 +16,7 @@ struct TransferOptions {
   int threads = 1;
   std::function<void(const std::string&, double)> progress;  ///< from any thread
   const std::atomic<bool>* stop = nullptr;
-  DiagnosisSettings settings = {};
+  bool stopped() const { return stop && *stop; }
 };
 
 /// What effects that were found in one experiment do for another one.
@@ -35,10 +35,16 @@ struct Transfer {
   std::string sentence() const;
 };
 
-/// Carries the effects of `extended` over to the plant of another experiment. Modulus, density and
-/// damping are fitted to its trials without the effects and with them; the effects' own numbers
-/// stay. Factors on the material in `extended` belong to the first plant and stay there. Throws
-/// UsageError where an effect sits on a curve that the other plant does not have.
+/// Of what makes the first plant another one than its file says, nothing belongs to the second: the
+/// effects without the factors on the material.
+std::vector<plant::Effect> carried_effects(const std::vector<plant::Effect>& effects);
+
+/// Carries effects over to another experiment. Modulus, density and damping are fitted to its
+/// trials without the effects and with them; the effects' own numbers stay. Throws UsageError where
+/// an effect sits on a curve that no plant of it has.
+Transfer transfer(FitGround& ground, const std::vector<plant::Effect>& carried,
+                  const TransferOptions& options);
+/// The same of a single plant, with the effects of `extended`.
 Transfer transfer(const plant::PlantFile& extended, const Experiment& experiment,
                   const TransferOptions& options);
 

@@ -13,8 +13,8 @@ namespace {
 /// A robot at plants.
 class SceneGround : public FitGround {
  public:
-  SceneGround(const Experiment& experiment, const ParameterFitOptions& options)
-      : simulator_(experiment, {}, options.threads, options.stop),
+  SceneGround(const Experiment& experiment, int threads, const std::atomic<bool>* stop)
+      : simulator_(experiment, {}, threads, stop),
         data_(experiment),
         evaluator_(simulator_, data_) {
     for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t)
@@ -31,27 +31,37 @@ class SceneGround : public FitGround {
   void renew_noise(const Hypothesis& model) override {
     widen_noise(simulator_, data_, {model.effects});
   }
-  void describe(const Hypothesis& model, ParameterFit& fit) override {
-    const std::vector<SceneReadings> predicted = predictions_of(simulator_, {model.effects});
-    std::array<int, scene_channels> seen{};
-    for (std::size_t t = 0; t < predicted.size(); ++t) {
-      const int trial = static_cast<int>(t);
-      Misfit sum;
-      const auto sums = data_.sums(trial, predicted[t]);
-      for (std::size_t c = 0; c < sums.size(); ++c) sum += sums[c], seen[c] += sums[c].count;
-      fit.trials.push_back({experiment().trials[t].name,
-                            std::ranges::find(trials_, trial) == trials_.end(), sum.rms()});
+  std::vector<int> check_trials() const override {
+    std::vector<int> check;
+    for (int t = 0; t < static_cast<int>(experiment().trials.size()); ++t)
+      if (std::ranges::find(trials_, t) == trials_.end()) check.push_back(t);
+    return check;
+  }
+  Hypothesis baseline() override { return scene_baseline(experiment()); }
+  std::vector<std::vector<Misfit>> misfits(std::span<const Hypothesis> models) override {
+    std::vector<std::vector<Misfit>> all(models.size());
+    for (std::size_t m = 0; m < models.size(); ++m) {
+      const std::vector<SceneReadings> predicted = predictions_of(simulator_, {models[m].effects});
+      for (std::size_t t = 0; t < predicted.size(); ++t) {
+        Misfit& sum = all[m].emplace_back();
+        for (const Misfit& one : data_.sums(static_cast<int>(t), predicted[t])) sum += one;
+      }
     }
-    for (std::size_t c = 0; c < seen.size(); ++c) {
+    return all;
+  }
+  void describe(ParameterFit& fit) override {
+    const SceneReadings nothing = predictions_of(simulator_, {}).front();
+    const auto sums = data_.sums(0, nothing);
+    for (std::size_t c = 0; c < sums.size(); ++c) {
       const auto channel = static_cast<SceneChannel>(c);
-      if (seen[c] > 0)
+      if (sums[c].count > 0)
         fit.noise.emplace_back(std::string(channel_name(channel)) + "_std",
                                data_.deviation(channel));
     }
     fit.distance = simulator_.numerics().distance;
     fit.dt = simulator_.numerics().dt;
-    fit.simulations = simulator_.simulations();
   }
+  long simulations() const override { return simulator_.simulations(); }
 
  private:
   SceneSimulator simulator_;
@@ -88,11 +98,9 @@ FitVocabulary scene_vocabulary(const Experiment& experiment) {
   return known;
 }
 
-ParameterFit fit_scene_parameters(const Experiment& experiment,
-                                  const std::vector<Hypothesis>& starts,
-                                  const ParameterFitOptions& options) {
-  SceneGround ground(experiment, options);
-  return fit_parameters(ground, starts, options);
+std::unique_ptr<FitGround> scene_ground(const Experiment& experiment, int threads,
+                                        const std::atomic<bool>* stop) {
+  return std::make_unique<SceneGround>(experiment, threads, stop);
 }
 
 }  // namespace pedicel::discrepancy

@@ -10,10 +10,9 @@ namespace pedicel::discrepancy {
 /// without it the one that fits best is taken.
 FitVocabulary scene_vocabulary(const Experiment& experiment);
 
-/// fit_parameters() of an experiment with a robot, with the noise of the instruments and of the
-/// predictions (widen_noise()). Throws InvalidFile where a plant cannot be built.
-ParameterFit fit_scene_parameters(const Experiment& experiment,
-                                  const std::vector<Hypothesis>& starts,
-                                  const ParameterFitOptions& options);
+/// An experiment with a robot, with the noise of the instruments and of the predictions
+/// (widen_noise()). Throws InvalidFile where a plant cannot be built.
+std::unique_ptr<FitGround> scene_ground(const Experiment& experiment, int threads,
+                                        const std::atomic<bool>* stop);
 
 }  // namespace pedicel::discrepancy
