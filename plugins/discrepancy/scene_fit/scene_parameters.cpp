@@ -13,8 +13,9 @@ namespace {
 /// A robot at plants.
 class SceneGround : public FitGround {
  public:
-  SceneGround(const Experiment& experiment, int threads, const std::atomic<bool>* stop)
-      : simulator_(experiment, {}, threads, stop),
+  SceneGround(const Experiment& experiment, int threads, const std::atomic<bool>* stop,
+              const SceneNumerics& numerics)
+      : simulator_(experiment, numerics, threads, stop),
         data_(experiment),
         evaluator_(simulator_, data_) {
     for (int t = 0; t < static_cast<int>(experiment.trials.size()); ++t)
@@ -99,8 +100,9 @@ FitVocabulary scene_vocabulary(const Experiment& experiment) {
 }
 
 std::unique_ptr<FitGround> scene_ground(const Experiment& experiment, int threads,
-                                        const std::atomic<bool>* stop) {
-  return std::make_unique<SceneGround>(experiment, threads, stop);
+                                        const std::atomic<bool>* stop,
+                                        const SceneNumerics& numerics) {
+  return std::make_unique<SceneGround>(experiment, threads, stop, numerics);
 }
 
 }  // namespace pedicel::discrepancy

@@ -2,6 +2,7 @@
 
 #include "plugins/discrepancy/fit/parameter_fit.h"
 #include "plugins/discrepancy/fit/parameter_request.h"
+#include "plugins/discrepancy/scene_predict/scene_simulator.h"
 
 namespace pedicel::discrepancy {
 
@@ -13,6 +14,7 @@ FitVocabulary scene_vocabulary(const Experiment& experiment);
 /// An experiment with a robot, with the noise of the instruments and of the predictions
 /// (widen_noise()). Throws InvalidFile where a plant cannot be built.
 std::unique_ptr<FitGround> scene_ground(const Experiment& experiment, int threads,
-                                        const std::atomic<bool>* stop);
+                                        const std::atomic<bool>* stop,
+                                        const SceneNumerics& numerics = {});
 
 }  // namespace pedicel::discrepancy
