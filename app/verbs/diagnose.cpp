@@ -71,16 +71,14 @@ std::string what_is_seen(const discrepancy::Verdict& verdict) {
 
 int run(DiagnoseArguments& a, const CLI::App& verb) {
   const discrepancy::Experiment experiment = load_all(a);
-  if (experiment.has_robot()) {
-    if (a.tasks.cluster.wanted() || a.tasks.is_task())
-      throw UsageError(a.experiment + ": its model is a scene, expected no --cluster");
-    return diagnose_scene(a, experiment, a.settings, a.time_limit);
-  }
+  const SearchParts parts(a.tasks, a, a.folder("diagnosis_"), verb);
+  if (!a.tasks.is_task())
+    a.check(a.folder("diagnosis_"), {"report.html", "verdict.json", "findings.txt"});
+  if (experiment.has_robot())
+    return diagnose_scene(a, experiment, a.settings, a.time_limit, parts.parts());
   discrepancy::DiagnosisOptions options;
   for (const std::string& one : a.settings) discrepancy::set_setting(options.settings, one);
-  const SearchParts parts(a.tasks, a, a.folder("diagnosis_"), verb);
   options.parts = parts.parts();
-  if (!a.tasks.is_task()) a.check(a.folder("diagnosis_"), {"report.html", "verdict.json"});
   options.seed = static_cast<std::uint64_t>(a.seed);
   options.time_limit = a.time_limit;
   // From now on a signal ends the search, and what is known is written.

@@ -87,12 +87,13 @@ void check_fitted(const ExperimentArguments& a, const Experiment& experiment) {
 }  // namespace
 
 int diagnose_scene(const ExperimentArguments& a, const Experiment& experiment,
-                   const std::vector<std::string>& settings, double time_limit) {
+                   const std::vector<std::string>& settings, double time_limit,
+                   discrepancy::FitParts* parts) {
   discrepancy::SceneDiagnosisOptions options;
   for (const std::string& one : settings) discrepancy::set_setting(options.settings, one);
   check_fitted(a, experiment);
   const std::filesystem::path folder = a.folder("diagnosis_");
-  a.check(folder, {"report.html", "verdict.json", "findings.txt"});
+  options.parts = parts;
   options.threads = a.thread_count();
   options.time_limit = time_limit;
   options.stop = &stop_requested;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <span>
 
@@ -344,6 +345,9 @@ class Search {
     std::size_t done = 0;
     // A second cause is looked for on top of one that has explained much.
     const auto most = static_cast<std::size_t>(names.empty() ? how_.refits : (how_.refits + 1) / 2);
+    // Who does them elsewhere does all that may be asked for at once. What is kept is the same.
+    std::vector<FitSummary> fits =
+        fitted_elsewhere(std::span(screened).first(std::min(most, screened.size())), base_excess);
     for (const ScreenedCause& one : screened) {
       if (done == most || stopped()) break;
       // They are in order, so all that follow are farther behind.
@@ -353,7 +357,8 @@ class Search {
       tell(
           "refitting with " + one.name,
           from + (to - from) * (0.3 + 0.5 * static_cast<double>(done) / static_cast<double>(most)));
-      found_.candidates.push_back(refitted(one, names, base_excess));
+      found_.candidates.push_back(candidate_of(
+          one, names, fits.empty() ? refitted(one, base_excess) : std::move(fits[done])));
       best = std::min(best, found_.candidates.back().excess);
       ++done;
     }
@@ -364,21 +369,33 @@ class Search {
   }
 
   // Extended by a cause that was looked at in the linear.
-  SceneCandidate refitted(const ScreenedCause& one, const std::vector<std::string>& names,
-                          double base_excess) {
-    SceneCandidate candidate;
-    candidate.names = names;
-    candidate.names.push_back(one.name);
+  FitSummary refitted(const ScreenedCause& one, double base_excess) {
     // From where the linear put all numbers, the base's among them.
-    candidate.fit = fit(one.model, how_.first_iterations, options_.trials);
-    judge(candidate);
+    FitSummary found = fit(one.model, how_.first_iterations, options_.trials);
+    const double excess = SceneDataSet::beyond_noise(found.misfit());
     // Where it leaves too much it may not have arrived, unless it leaves most of it.
-    if (!candidate.fit.converged && candidate.excess > allowed() &&
-        candidate.excess < how_.halfway * base_excess && !stopped()) {
-      candidate.fit = fit(candidate.fit.hypothesis, how_.last_iterations, options_.trials);
-      judge(candidate);
-    }
-    // Kept also where it does badly, for what is told of causes that came near.
+    if (!found.converged && excess > allowed() && excess < how_.halfway * base_excess && !stopped())
+      found = fit(found.hypothesis, how_.last_iterations, options_.trials);
+    return found;
+  }
+
+  // By other processes; empty where there are none.
+  std::vector<FitSummary> fitted_elsewhere(std::span<const ScreenedCause> causes,
+                                           double base_excess) {
+    if (!options_.parts || causes.empty()) return {};
+    return fits_by(options_.parts, "causes", static_cast<int>(causes.size()), [&](int i) {
+      return refitted(causes[static_cast<std::size_t>(i)], base_excess);
+    });
+  }
+
+  // Kept also where it does badly, for what is told of causes that came near.
+  SceneCandidate candidate_of(const ScreenedCause& one, std::vector<std::string> names,
+                              FitSummary found) {
+    SceneCandidate candidate;
+    candidate.names = std::move(names);
+    candidate.names.push_back(one.name);
+    candidate.fit = std::move(found);
+    judge(candidate);
     return candidate;
   }
 
@@ -388,15 +405,22 @@ class Search {
   // to the best.
   void refit_plainer(std::span<const ScreenedCause> others, const std::vector<std::string>& names,
                      double base_excess, std::size_t most) {
-    std::size_t done = 0;
-    for (const ScreenedCause& one : others) {
-      // As many again, so that the time is at most twice as long.
-      if (done == most || found_.candidates.empty() || stopped()) return;
+    if (found_.candidates.empty()) return;
+    const auto is_plainer = [this](const ScreenedCause& one) {
+      return one.model.size() < found_.candidates.front().fit.hypothesis.size();
+    };
+    std::vector<ScreenedCause> plainer;
+    // As many again, so that the time is at most twice as long.
+    std::ranges::copy_if(others, std::back_inserter(plainer), is_plainer);
+    if (plainer.size() > most) plainer.resize(most);
+    std::vector<FitSummary> fits = fitted_elsewhere(plainer, base_excess);
+    for (std::size_t i = 0; i < plainer.size() && !stopped(); ++i) {
       // Asked at each, as a plainer one may lead by now.
-      if (one.model.size() >= found_.candidates.front().fit.hypothesis.size()) continue;
-      found_.candidates.push_back(refitted(one, names, base_excess));
+      if (!is_plainer(plainer[i])) continue;
+      found_.candidates.push_back(
+          candidate_of(plainer[i], names,
+                       fits.empty() ? refitted(plainer[i], base_excess) : std::move(fits[i])));
       sort_candidates();
-      ++done;
     }
   }
 

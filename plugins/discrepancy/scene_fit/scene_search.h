@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "plugins/discrepancy/fit/fit_parts.h"
 #include "plugins/discrepancy/scene_fit/outside_force.h"
 #include "plugins/discrepancy/scene_fit/scene_fit.h"
 #include "plugins/discrepancy/scene_fit/scene_screen.h"
@@ -31,6 +32,7 @@ struct SceneSearchOptions {
   std::vector<int> trials;  ///< to be fitted
   std::vector<int> check;   ///< held out
   int threads = 1;
+  FitParts* parts = nullptr;  ///< does refits of causes; null: they are done here, one by one
   std::function<void(const std::string&, double)> progress;  ///< what is done, and its share
   std::function<bool()> stop;  ///< true: what is known so far is to be concluded
   /// Takes the predictions' own noise anew, at a model (widen_noise()); none: it stays.

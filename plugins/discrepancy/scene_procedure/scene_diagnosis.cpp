@@ -97,6 +97,7 @@ class Procedure {
     how.trials = out_.fit_trials;
     how.check = out_.check_trials;
     how.threads = options_.threads;
+    how.parts = options_.parts;
     // Late is no error: what is known so far is concluded, and the verdict says `partial`.
     how.stop = [this] { return stopped() || late(); };
     how.progress = [this](const std::string& what, double share) {
@@ -276,6 +277,7 @@ class Procedure {
     how.numerics = coarse();
     how.settings = options_.settings;
     how.threads = options_.threads;
+    how.parts = options_.parts;
     how.stop = options_.stop;
     // Where something is wrong most clearly, motions like it show it best.
     const std::vector<double> misfit = misfits();

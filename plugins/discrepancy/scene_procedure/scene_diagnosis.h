@@ -18,6 +18,7 @@ struct SceneDiagnosisOptions {
   SceneNumerics numerics;
   SceneSettings settings;
   int threads = 1;
+  FitParts* parts = nullptr;  ///< does refits of causes; null: they are done here
   double time_limit = std::numeric_limits<double>::infinity();  ///< s
   std::function<void(const std::string&, double)> progress;
   const std::atomic<bool>* stop = nullptr;
