@@ -402,8 +402,8 @@ int run_cli(int argc, char** argv, const OpenDesktop& open_desktop, const MakeFi
                                "scene file (*.scene.yaml), or a log that is played (*.mcap)"));
   finds_shipped(
       app.add_option("--script", run.script, "run commands from a file, one a line, off screen"));
-  app.add_flag("--headless",
-               std::string("no window: run off screen (so do --out, --json and --quiet)"));
+  app.add_flag("--headless")
+      ->description("no window: run off screen (so do --out, --json and --quiet)");
   DesktopRequest window;
   bool paused = false;
   add_window_options(app, window, paused);
