@@ -251,9 +251,9 @@ std::vector<Hypothesis> starts_of(const Group& group, const FitVocabulary& known
   for (const Hypothesis& start : meant) {
     const Hypothesis one = adapted(start, group, kind);
     // Starts that differed in what is given now are one, and would be fitted several times.
-    const bool known = std::ranges::any_of(
+    const bool is_there = std::ranges::any_of(
         result, [&](const Hypothesis& other) { return other.effects[0] == one.effects[0]; });
-    if (!known) result.push_back(one);
+    if (!is_there) result.push_back(one);
   }
   return result;
 }

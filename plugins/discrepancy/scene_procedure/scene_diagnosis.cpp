@@ -277,7 +277,6 @@ class Procedure {
     how.numerics = coarse();
     how.settings = options_.settings;
     how.threads = options_.threads;
-    how.parts = options_.parts;
     how.stop = options_.stop;
     // Where something is wrong most clearly, motions like it show it best.
     const std::vector<double> misfit = misfits();
