@@ -65,7 +65,7 @@ def notes(rows, machine):
         "with one. Empty: not within "
         f"{machine['cap']} s of wall time, or not stable.",
         "One iteration with self-contact: where branches strike each other they end up twice as "
-        "far off as the time step puts them (`assets/manual/measurements.md`).",
+        "far off as the time step puts them (`assets/manual/measurements_solver.md`).",
     ]
     for row in rows:
         if row.gave_up:
