@@ -1,5 +1,6 @@
 #include "app/help/manual_rows.h"
 
+#include <cctype>
 #include <cmath>
 
 #include "app/help/manual_cells.h"
@@ -91,15 +92,34 @@ void add_sensors(std::vector<ManualRow>& rows) {
     add_parameters(rows, world::InstrumentNoise(kind).parameters(), "cameras");
 }
 
+std::string default_cell(const discrepancy::DiagnosisSetting& one) {
+  return number_cell(one.get()) + (one.unit == "1" ? "" : " " + one.unit);
+}
+
+std::string meaning_cell(const discrepancy::DiagnosisSetting& one) {
+  std::string twice = phrase(one.doubled);
+  if (!twice.starts_with("It cannot")) {
+    twice.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(twice.front())));
+    twice = "Doubled: " + twice;
+  }
+  return one.sentence + " " + twice;
+}
+
+// The page says once what stands behind a kind without a source.
+std::string origin_cell(const discrepancy::DiagnosisSetting& one) {
+  const std::string kind(discrepancy::to_string(one.kind));
+  const std::string source = one.source.substr(0, one.source.find("; no figure was kept"));
+  const bool usual = source == "bench of hidden effects" ||
+                     source == "scenes with a known answer" || source.starts_with("time against");
+  return usual ? kind : kind + ": " + source;
+}
+
 // `defaults` is default-constructed.
 template <class Settings>
 void add_diagnosis_settings(std::vector<ManualRow>& rows, const char* page, Settings defaults) {
   for (const discrepancy::DiagnosisSetting& one : discrepancy::described(defaults))
-    rows.push_back({page,
-                    1,
-                    {code(one.name), one.unit, number_cell(one.get()),
-                     std::string(discrepancy::to_string(one.kind)), phrase(one.sentence),
-                     one.source, phrase(one.doubled)}});
+    rows.push_back(
+        {page, 1, {code(one.name), default_cell(one), meaning_cell(one), origin_cell(one)}});
 }
 
 void add_commands(std::vector<ManualRow>& rows) {

@@ -163,7 +163,7 @@ void add_rounds(Budget& b, SettingRows& rows) {
              {budget, "the strongest dozen of some thirty", "Second effects take twice as long."});
   rows.count("causes", b.causes, "The most causes of a verdict.",
              {budget, "more known causes would but imitate an unknown one, slowly",
-              "Unknown effects are told as long lists of causes."});
+              "Unknown effects are reported as long lists of causes."});
   rows.count("bootstraps", b.bootstraps, "Samples of noise that tell the level of an alarm.",
              {budget, "the 0.995 quantile of 400: the second largest",
               "The level is known more closely; no simulation is made."});
@@ -183,7 +183,7 @@ void add_force_search(Budget& b, SettingRows& rows) {
   rows.count("law_refits", b.law_refits, "Laws that are refitted.",
              {budget, time_only, "Unknown effects take up to twice as long."});
   rows.nats("law_evidence", b.law_evidence, "Nats of linear response that a law must have.",
-            {budget, "half of what is told of", "Weak forces get no law."});
+            {budget, "half of what is reported", "Weak forces get no law."});
   rows.nats("law_within", b.law_within, "Nats by which a law may be behind the best one.",
             {measured, "large forces are not linear", "More laws are refitted."});
   rows.share("law_share", b.law_share, "The same as a share of the best one's evidence.",

@@ -19,7 +19,7 @@ void add_competition(Evidence& e, SettingRows& rows) {
       {measured, bench, "More causes with many numbers stay in the set."});
   rows.share("limit_reach", e.limit_reach,
              "Of an unknown: how near its bound a cause has turned into another one.",
-             {measured, bench, "More causes are told as the limit of another one."});
+             {measured, bench, "More causes are reported as the limit of another one."});
   rows.share("solvers_agree", e.solvers_agree,
              "Of what a cause changes: the part to which two honest solvers agree.",
              {measured,
@@ -56,7 +56,7 @@ void add_several(Evidence& e, SettingRows& rows) {
               "Mean square in noise units: what the best cause leaves when a force is asked for "
               "before any further cause.",
               {measured, "bench of hidden effects: twice the noise in RMS",
-               "Forces outside the list are told as several causes, slowly."});
+               "Forces outside the list are reported as several causes, slowly."});
   rows.share("left_by_force", e.left_by_force,
              "Of what the best cause leaves: the most that a force may leave to take its place.",
              {measured, bench, "Forces take the place of two effects more often."});
@@ -101,9 +101,9 @@ void add_discretisation(Evidence& e, SettingRows& rows) {
 }
 
 void add_stalks(Evidence& e, SettingRows& rows) {
-  rows.number(
-      "stalk_scatter", e.stalk_scatter, "Least scatter of the strengths of stalks.",
-      {measured, "what simulated loads err by", "Laws of detachment need more fruits to be told."});
+  rows.number("stalk_scatter", e.stalk_scatter, "Least scatter of the strengths of stalks.",
+              {measured, "what simulated loads err by",
+               "Laws of detachment need more fruits to be named."});
   rows.number("threshold_error", e.threshold_error,
               "Deviation of a factor common to all thresholds of a plant file.",
               {measured, "what thresholds are known to and loads are right to; no figure was kept",

@@ -19,7 +19,7 @@ void add_odds(Levels& l, SettingRows& rows) {
             "Nats that something from outside the list of causes must be worth: a missing force, a "
             "law of detachment.",
             {derived, "odds of 3,000 to 1, because many places and laws are tried",
-             "Fewer forces and laws of detachment are told of."});
+             "Fewer forces and laws of detachment are reported."});
   rows.nats("worth_naming", l.worth_naming, "Nats that a named cause must be worth.",
             {measured,
              "two honest solvers differ by up to 15; an effect of twice the size that could just "
@@ -30,7 +30,7 @@ void add_odds(Levels& l, SettingRows& rows) {
   rows.nats(
       "one_deviation", l.one_deviation,
       "Nats of a number that is one deviation from where its cause turns into another.",
-      {derived, "half of chi-square 1", "Fewer causes are told as the limit of another one."});
+      {derived, "half of chi-square 1", "Fewer causes are reported as the limit of another one."});
 }
 
 void add_alarms(Levels& l, SettingRows& rows) {
@@ -59,7 +59,7 @@ void add_alarms(Levels& l, SettingRows& rows) {
   rows.number("held_out_worse", l.held_out_worse,
               "Times the error without it at which a force or a refit makes held-out trials worse.",
               {derived, "chance moves the error of some hundred samples by 5 %",
-               "Forces are told that hold for the fitted trials alone."});
+               "Forces are reported that hold for the fitted trials only."});
   rows.number(
       "impossible_force", l.impossible_force,
       "Times the measured force that a model may need at a hold before the drive is refused.",
@@ -75,21 +75,22 @@ void add_parameters(Levels& l, SettingRows& rows) {
   rows.number("needed_deviations", l.needed_deviations,
               "Deviations from 1 at which a factor on modulus, density or damping is named.",
               {derived, "three parameters share the few false alarms that are allowed",
-               "Small errors of the plant file are not told."});
+               "Small errors of the plant file are not reported."});
   rows.number("least_factor_change", l.least_factor_change,
               "Logarithm of a factor that two honest solvers may differ by.",
               {measured, "moduli of two solvers differ by up to 0.1 % on the same data",
-               "Moduli that are 0.3 % off are not told, however precise the data."});
+               "Moduli that are 0.3 % off are not reported, however precise the data."});
   rows.share("known_to", l.known_to,
              "How far from its nominal value modulus, density or damping may be without being a "
              "finding, where the plant file says nothing (`known_to`).",
              {derived, "materials are seldom measured to less than 1 %",
-              "Fewer numbers of the plant file are told to be off."});
-  rows.share("least_share", l.least_share,
-             "Share of the misfit that a further cause must explain; what explains less is told as "
-             "a detail.",
-             {derived, "fifty times less than all of it changes no decision",
-              "Fewer causes stand beside the first."});
+              "Fewer numbers of the plant file are reported as off."});
+  rows.share(
+      "least_share", l.least_share,
+      "Share of the misfit that a further cause must explain; what explains less is reported as "
+      "a detail.",
+      {derived, "fifty times less than all of it changes no decision",
+       "Fewer causes stand beside the first."});
   rows.number("believed", l.believed, "Deviations of its prior within which a factor is believed.",
               {derived, "95 % of what is known beforehand",
                "A mass that looks like density is searched for less often."});
@@ -122,7 +123,7 @@ void add_remainders(Levels& l, SettingRows& rows) {
                "Larger or longer trials are proposed."});
   rows.share("outlier_share", l.outlier_share, "Share of samples from which outliers are named.",
              {measured, "a swing that starts within a sample makes a few",
-              "Fewer sensors are told to have outliers."});
+              "Fewer sensors are reported to have outliers."});
   rows.count("outlier_count", l.outlier_count, "Samples from which outliers are named.",
              {measured, "a swing that starts within a sample makes a few",
               "Outliers of short records are not named."});

@@ -23,24 +23,25 @@ void add_robot_alone(RobotAloneSettings& r, std::vector<DiagnosisSetting>& all) 
   rows.share("break_share", r.break_share,
              "Of the largest force until then: what must be held at a break.",
              {derived, "a touch that begins jumps, too, from nothing",
-              "Breaks of light pulls are not told."});
+              "Breaks of light pulls are not reported."});
   rows.number("break_deviations", r.break_deviations,
               "Deviations by which force and moment must jump at once.",
               {measured, "eight stalks that part jump by 22 to 205, pushes of stems by up to 9",
-               "Breaks of light pulls are not told."});
+               "Breaks of light pulls are not reported."});
   rows.measure("line_step", "m", r.line_step, "Step along the line of a force.",
-               {derived, "below what a place is known to", "Places are told less sharply."});
+               {derived, "below what a place is known to", "Places are found less exactly."});
   rows.measure("line_reach", "m", r.line_reach, "How far along the line a link is looked for.",
                {derived, "longer than the tools of harvest arms", "Searches take twice as long."});
   rows.measure("touching", "m", r.touching, "Distance at which the line has met a link.",
                {derived, "the coupling's own gap and a simplified shape's error",
-                "Places are told a little before the surface."});
+                "Places are found a little before the surface."});
   rows.measure("near_stem", "m", r.near_stem,
                "Distance of a stem beyond which it is no place on it.",
                {derived, "what an unseen plant's place is known to",
-                "Places are told on stems that were not touched."});
-  rows.count("places", r.places, "Places that are looked at along a curve.",
-             {budget, "half a step is told as a part of the error", "It takes a little longer."});
+                "Places are found on stems that were not touched."});
+  rows.count(
+      "places", r.places, "Places that are looked at along a curve.",
+      {budget, "half a step is reported as a part of the error", "It takes a little longer."});
 }
 
 namespace {
@@ -48,21 +49,21 @@ namespace {
 void add_pushes(SceneSymptomSettings& s, SettingRows& rows) {
   rows.number("shows_at", s.shows_at, "Deviations at which a symptom shows.",
               {derived, "all symptoms together show by chance in less than 1 % of cases",
-               "Weak symptoms are not told."});
+               "Weak symptoms are not reported."});
   rows.measure("still", "s", s.still, "Time at the start in which nothing has moved.",
                {measured, "arms of known scenes take longer to start; no figure was kept",
                 "A motion that starts at once is averaged in."});
   rows.number("clear_push", s.clear_push, "Noise units of a force that is a touch.",
-              {derived, "noise never reaches it", "Touches are told later."});
+              {derived, "noise never reaches it", "Touches are found later."});
   rows.share("light_push", s.light_push, "Of the largest force: the same.",
              {measured, "an arm's own inertia stays below; no figure was kept",
-              "Touches are told later."});
+              "Touches are found later."});
   rows.share(
       "firm_push", s.firm_push, "Of the largest force: where its ratio is read.",
       {derived, "below it the ratio is one of two noises", "Ratios are read of fewer samples."});
   rows.measure("smoothing", "s", s.smoothing, "Time to either side over which forces are smoothed.",
                {derived, "short beside a touch, long beside a sensor's samples",
-                "Touches are told less sharply."});
+                "Touches are found less exactly."});
   rows.share(
       "slip_ratio", s.slip_ratio, "Of the largest ratio: where a contact slips.",
       {derived, "one sample in twenty is a spike", "It cannot double: at 1 only spikes slip."});

@@ -64,22 +64,22 @@ void add_competition(SceneSearchSettings& s, SettingRows& rows) {
 void add_material(SceneSearchSettings& s, SettingRows& rows) {
   rows.number(
       "named_deviations", s.named_deviations,
-      "Deviations at which a number of a plant's file, or a competing model, is told to be off.",
-      {derived, "one in 370 by chance", "Small errors of the plant file are not told."});
+      "Deviations at which a number of a plant's file, or a competing model, is reported as off.",
+      {derived, "one in 370 by chance", "Small errors of the plant file are not reported."});
   rows.number("modulus_known_to", s.modulus_known_to,
               "Logarithm of a modulus: what a file's own number is known to.",
               {measured, "what two solvers make of it; no figure was kept",
-               "Moduli that are 10 % off are not told."});
+               "Moduli that are 10 % off are not reported."});
   rows.number("density_known_to", s.density_known_to, "The same of a density.",
               {measured, "it is seen through little but weight; no figure was kept",
-               "Densities that are 20 % off are not told."});
+               "Densities that are 20 % off are not reported."});
   rows.number("damping_known_to", s.damping_known_to, "The same of a damping time.",
               {measured, "what solvers differ by most; no figure was kept",
-               "Damping times that are 100 % off are not told."});
+               "Damping times that are 100 % off are not reported."});
   rows.measure(
       "least_displacement", "m", s.least_displacement,
       "How far an unseen plant must stand from its file's place to be a finding.",
-      {derived, "no pot is placed by hand to less", "Displacements of 5 mm are not told."});
+      {derived, "no pot is placed by hand to less", "Displacements of 5 mm are not reported."});
   rows.measure("farthest_start", "m", s.farthest_start,
                "The farthest place to which an unseen plant is put before the first fit.",
                {measured, "half of what its place is known to",
@@ -91,10 +91,10 @@ void add_effort(SceneSearchSettings& s, SettingRows& rows) {
                {budget, "its own error counts as noise", "Searches are faster and less sharp."});
   rows.seconds("dt", s.dt, "Step of the search.",
                {budget, "its own error counts as noise", "Searches are faster and less sharp."});
-  rows.seconds(
-      "run_dt", s.run_dt, "The same where a log of a run was measured.",
-      {measured, "what an impact does in a step is a needle that no fit finds from afar",
-       "A plant 3 mm off is told as 2.87 mm off, beside a density that is not; at half as 2.71."});
+  rows.seconds("run_dt", s.run_dt, "The same where a log of a run was measured.",
+               {measured, "what an impact does in a step is a needle that no fit finds from afar",
+                "A plant 3 mm off is reported as 2.87 mm off, beside a density that is not; at "
+                "half as 2.71."});
   rows.count("baseline_iterations", s.baseline_iterations, "Iterations of the baseline.",
              {budget, scene_time, "Plants far from their files are fitted more slowly."});
   rows.count("first_iterations", s.first_iterations, "Iterations of a cause.",
@@ -155,7 +155,7 @@ void add_scene_fit(SceneFitSettings& f, std::vector<DiagnosisSetting>& all) {
   rows.step("least_place_step", f.least_place_step,
             "The smallest difference of an unseen plant's place: of a unit step, 2 mm.",
             {measured, "a stem that sticks to the tool changes as much by a micrometre",
-             "Where such a plant stands is told more surely than it is known."});
+             "Where such a plant stands is reported as more certain than it is."});
   rows.step("most_step", f.most_step, "The largest difference.",
             {derived, "a third of a unit step still bends little",
              "Numbers that show little have less linear derivatives."});
@@ -185,12 +185,12 @@ void add_scene_fit(SceneFitSettings& f, std::vector<DiagnosisSetting>& all) {
 void add_outside_force(OutsideForceSettings& o, std::vector<DiagnosisSetting>& all) {
   SettingRows rows("outside", all);
   rows.measure("spacing", "m", o.spacing, "Distance of the places that are tried along a curve.",
-               {budget, scene_time, "Places are told less sharply, in half the time."});
+               {budget, scene_time, "Places are found less exactly, in half the time."});
   rows.count("places", o.places, "The most places; beyond them they are farther apart.",
              {budget, scene_time, "Large plants take longer."});
   rows.measure("bin", "s", o.bin, "Time over which the force is one.",
                {derived, "short beside a hand's pull, with several samples in it",
-                "The course is told less sharply, with less noise."});
+                "The course is found less exactly, with less noise."});
   rows.measure("rise", "s", o.rise, "Time in which a tried force begins.",
                {derived, "slow beside the first swing of a stem", "Sudden forces begin late."});
   rows.measure("least_response", "m", o.least_response,
@@ -199,7 +199,7 @@ void add_outside_force(OutsideForceSettings& o, std::vector<DiagnosisSetting>& a
                 "Contacts slide in the response that stick in the data."});
   rows.measure("most_response", "m", o.most_response, "Most that it moves a place by.",
                {measured, "stems are linear that far; no figure was kept",
-                "Large forces are told as smaller ones."});
+                "Large forces are reported as smaller ones."});
   rows.number("significant_bin", o.significant_bin,
               "Mean square in noise units of a bin that is not noise alone.",
               {derived, "a bin has some ten samples", "Forces begin later."});
@@ -207,15 +207,16 @@ void add_outside_force(OutsideForceSettings& o, std::vector<DiagnosisSetting>& a
               {derived, "one in 65,000 by chance, of three components",
                "Weak parts of a pull are left out."});
   rows.share("peak_share", o.peak_share, "Of the largest force: what counts as acting.",
-             {measured, known_scenes, "Pulls are told shorter."});
+             {measured, known_scenes, "Pulls are reported as shorter."});
   rows.share("onset_share", o.onset_share, "The same where it begins.",
              {measured, "a pull begins small", "Pulls begin later."});
-  rows.share("least_share", o.least_share, "Of the misfit: what a force must explain to be told.",
-             {measured, known_scenes, "Forces at a place are told less often."});
+  rows.share("least_share", o.least_share,
+             "Of the misfit: what a force must explain to be reported.",
+             {measured, known_scenes, "Forces at a place are reported less often."});
   rows.share("weak_axis", o.weak_axis,
              "Of the response: what is added across the axis that hardly moves.",
              {measured, "along a stem nearly nothing moves; no figure was kept",
-              "Forces along a stem are told too small."});
+              "Forces along a stem come out too small."});
 }
 
 }  // namespace pedicel::discrepancy
