@@ -69,7 +69,8 @@ void add_force_options(CLI::App& verb, ImportArguments& a) {
   verb.add_option("--force-column", a.force_column, "column of the force");
   verb.add_option("--force-unit", a.force_unit, "of the force: N, mN or gf");
   verb.add_option("--time-unit", a.time_unit, "of the force table's time: s or ms");
-  verb.add_option("--extension-column", a.extension, "column of the machine's way, for --lead");
+  verb.add_option("--extension-column", a.extension,
+                  "column of the machine's displacement, for --lead");
 }
 
 double length_of_text(const std::string& text, const std::string& option) {
