@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/verbs/cluster.h"
+#include "app/verbs/run_arguments.h"
 #include "engine/core/check.h"
 #include "engine/core/stop.h"
 #include "engine/io/output_check.h"
@@ -57,7 +58,8 @@ void ExperimentArguments::write(
 }
 
 void add_experiment(CLI::App& verb, ExperimentArguments& a) {
-  verb.add_option("experiment", a.experiment, "experiment folder (or its experiment.yaml)")
+  finds_shipped(
+      verb.add_option("experiment", a.experiment, "experiment folder (or its experiment.yaml)"))
       ->required();
 }
 

@@ -181,7 +181,7 @@ int import_verb(const ImportArguments& a) {
     throw UsageError("--scene: is for logs (MCAP), expected --plant beside recordings of points");
   if (a.plant.empty())
     throw UsageError(
-        "import: an experiment needs the plant as it is believed to be, expected "
+        "import: an experiment needs its nominal plant, expected "
         "--plant with a plant file (pedicel draws one, or reads an MTG or a table)");
   ImportNotes notes;
   const ImportRequest request = request_of(a, notes);

@@ -133,7 +133,7 @@ void check_no_answers_are_lost(const ImportArguments& a, const std::string& prop
 int propose(const ImportArguments& a, const std::vector<LogContents>& logs) {
   if (a.scene.empty())
     throw UsageError(
-        "import: a log needs the scene as it is believed to be, expected --scene with a scene "
+        "import: a log needs its nominal scene, expected --scene with a scene "
         "file, or --map with a map that names one");
   const LogScene scene = discrepancy::read_log_scene(a.scene);
   const std::string text =

@@ -155,7 +155,8 @@ void add_observe_options(CLI::App& observe, ObserveArguments& a) {
                                    "plant file, or scene or experiment whose plant is meant"))
       ->required();
   observe.add_option("--plant", a.plant, "name of the scene's plant, where it has several");
-  observe.add_option("--like", a.like, "experiment whose drives, markers and times are repeated")
+  finds_shipped(observe.add_option("--like", a.like,
+                                   "experiment whose drives, markers and times are repeated"))
       ->required();
   observe.add_option("--out", a.out, "folder to write")->required();
   observe.add_option("--seed", a.seed, "of the noise");

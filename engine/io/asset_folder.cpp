@@ -45,7 +45,9 @@ std::string shipped_file(const std::string& name, const std::filesystem::path& a
   const bool named = path.is_relative() && path.has_parent_path();
   if (!named || assets.empty() || std::filesystem::exists(path, none)) return name;
   const std::filesystem::path shipped = assets.parent_path() / path;
-  return std::filesystem::is_regular_file(shipped, none) ? shipped.string() : name;
+  const bool is_there = std::filesystem::is_regular_file(shipped, none) ||
+                        std::filesystem::is_regular_file(shipped / "experiment.yaml", none);
+  return is_there ? shipped.string() : name;
 }
 
 std::string shipped_file(const std::string& name) {

@@ -49,9 +49,9 @@ const io::KeyList& experiment_list() {
         .type = KeyType::word,
         .otherwise = Told{"measured"},
         .words = {"measured", "run"},
-        .sentence =
-            "of a scene, `run`: a log of a run of the scene by this program, whose step, mesh and contact "
-            "are the run's"},
+        .sentence = "of a scene, `run`: a log of a run of the scene by this program, whose step, "
+                    "mesh and contact "
+                    "are the run's"},
        {.name = "markers",
         .type = KeyType::list,
         .otherwise = none,
@@ -267,14 +267,14 @@ const io::KeyList& trial_list() {
 }
 
 const io::KeyList& follows_list() {
-  static const io::KeyList keys{
-      "follows",
-      "robot",
-      {{.name = "follows",
-        .type = KeyType::word,
-        .words = {"joints", "commands"},
-        .sentence = "encoders that are believed, or a controller that is told"}},
-      "robot"};
+  static const io::KeyList keys{"follows",
+                                "robot",
+                                {{.name = "follows",
+                                  .type = KeyType::word,
+                                  .words = {"joints", "commands"},
+                                  .sentence = "`joints`: the arm goes where the encoders say; "
+                                              "`commands`: a controller is given them"}},
+                                "robot"};
   return keys;
 }
 
@@ -307,8 +307,8 @@ const io::KeyList& moved_list() {
 
 std::vector<const io::KeyList*> experiment_keys() {
   std::vector<const io::KeyList*> all = {
-      &experiment_list(), &marker_list(),  &plant::place_keys(), &camera_list(), &wrench_list(),
-      &noise_list(),      &trial_list(),   &follows_list(),      &mass_list(),   &moved_list()};
+      &experiment_list(), &marker_list(), &plant::place_keys(), &camera_list(), &wrench_list(),
+      &noise_list(),      &trial_list(),  &follows_list(),      &mass_list(),   &moved_list()};
   for (const io::KeyList* one : drive_keys()) all.push_back(one);
   return all;
 }

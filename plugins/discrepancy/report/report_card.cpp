@@ -100,16 +100,16 @@ void add_foretold(io::HtmlReport& page, const ReportData& report) {
                                              d.predictions[report.extended ? extended : refitted]);
   const std::string words = foretold_text(report.experiment, all, d.check_trials);
   if (words.empty()) return;
-  page.subheading("What it foretells");
+  page.subheading("What it predicts");
   page.paragraph(words);
   std::vector<std::vector<std::string>> rows;
   for (const Foretold& one : all) {
     const bool held_out = std::ranges::find(d.check_trials, one.trial) != d.check_trials.end();
     rows.push_back({report.experiment.trials[one.trial].name, held_out ? "held out" : "fitted",
-                    one.what == Foretold::What::rest ? "way to where it rests" : "frequency",
+                    one.what == Foretold::What::rest ? "path to where it rests" : "frequency",
                     with_error(100.0 * one.off, 100.0 * one.error, "%")});
   }
-  page.table({"trial", "", "what", "measured less foretold"}, rows);
+  page.table({"trial", "", "what", "measured less predicted"}, rows);
 }
 
 void add_competing(io::HtmlReport& page, const Diagnosis& d) {

@@ -457,7 +457,7 @@ std::string StalkStrength::summary() const {
   if (!law) return sentence() + " By the model their stalks bore nothing.";
   return sentence() +
          text(
-             " The events speak for it by %.3g nats, and by %.3g where each is foretold by the "
+             " The events speak for it by %.3g nats, and by %.3g where each is predicted by the "
              "others.",
              evidence, foretold);
 }

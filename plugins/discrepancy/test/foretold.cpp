@@ -162,13 +162,13 @@ std::string foretold_text(const Experiment& experiment, const std::vector<Foreto
     return std::string(!rest    ? "Frequencies"
                        : !swing ? "Places at rest"
                                 : "Places at rest and frequencies") +
-           " of the trials held out are foretold within " + percent + ".";
-  std::string text = "Not foretold within " + percent + ": ";
+           " of the trials held out are predicted within " + percent + ".";
+  std::string text = "Not predicted within " + percent + ": ";
   if (misses(rest)) text += said(experiment, *rest);
   if (misses(swing)) text += (misses(rest) ? ", " : "") + said(experiment, *swing);
   text += " than the model. ";
   if (misses(rest) != misses(swing) && rest && swing)
-    text += misses(rest) ? "Its swings are foretold. " : "Its places at rest are foretold. ";
+    text += misses(rest) ? "Its swings are predicted. " : "Its places at rest are predicted. ";
   // What depends on the load is not seen in trials with another one.
   const Foretold *fitted_rest = of(Foretold::What::rest, false),
                  *fitted_swing = of(Foretold::What::frequency, false);

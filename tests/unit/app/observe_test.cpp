@@ -64,7 +64,7 @@ TEST_F(Observe, SetEffectsAreSimulatedAndNotWritten) {
   const auto plain = observe("plain");
   arguments_.set = {"{name: base_compliance, stiffness: 0.05}"};
   const auto soft = observe("soft");
-  EXPECT_TRUE(soft.plant.effects.empty());
+  EXPECT_TRUE(soft.plant().effects.empty());
   EXPECT_LT(soft.trials[0].force.value(0, 0), 0.9 * plain.trials[0].force.value(0, 0));
 }
 
@@ -94,7 +94,7 @@ TEST_F(Observe, TakesAPlantOfAScene) {
   EXPECT_THROW(observe_verb(arguments_), UsageError);
   arguments_.plant = "stiff";
   const auto found = observe("stiff");
-  EXPECT_EQ(found.plant.material.youngs_modulus, 2.0 * modulus);
+  EXPECT_EQ(found.plant().material.youngs_modulus, 2.0 * modulus);
   const auto force = [](const discrepancy::Experiment& e) { return e.trials[0].force.value(0, 0); };
   const double k = discrepancy::testing::Beam().tip_stiffness();
   const auto series = [](double stiffness) { return 1.0 / (1.0 / 50.0 + 1.0 / stiffness); };
@@ -102,7 +102,7 @@ TEST_F(Observe, TakesAPlantOfAScene) {
   // An absent optional file gives way to its fallback, as in a run.
   const std::string absent = "  - {name: stiff, file: none.plant.yaml, optional: true";
   write_scene(absent + ", fallback: stem.plant.yaml}\n");
-  EXPECT_EQ(observe("fallback").plant.material.youngs_modulus, modulus);
+  EXPECT_EQ(observe("fallback").plant().material.youngs_modulus, modulus);
   write_scene(absent + "}\n");
   EXPECT_THROW(observe_verb(arguments_), UsageError);
   arguments_.model = (folder_ / "stem.plant.yaml").string();

@@ -60,19 +60,19 @@ TEST(Foretold, SaysWhatIsMissing) {
   const std::string missing =
       foretold_text(soft.experiment, foretold_of(soft, 1.12, 1.03), {let_go, weighed});
   EXPECT_THAT(missing,
-              HasSubstr("Not foretold within 5 %: in trial \"weights\" the plant rests 12"));
+              HasSubstr("Not predicted within 5 %: in trial \"weights\" the plant rests 12"));
   EXPECT_THAT(missing, HasSubstr("farther from its drawn shape than the model."));
-  EXPECT_THAT(missing, HasSubstr("Its swings are foretold."));
+  EXPECT_THAT(missing, HasSubstr("Its swings are predicted."));
   EXPECT_THAT(missing, HasSubstr("another one at rest than in swings; that would make relaxation"));
   MadeData fast;
   const std::string swings =
       foretold_text(fast.experiment, foretold_of(fast, 1.01, 0.9), {let_go, weighed});
   EXPECT_THAT(swings, HasSubstr("in trial \"release\" it swings 11"));
-  EXPECT_THAT(swings, HasSubstr("faster than the model. Its places at rest are foretold."));
+  EXPECT_THAT(swings, HasSubstr("faster than the model. Its places at rest are predicted."));
   MadeData right;
   const std::vector<Foretold> all = foretold_of(right, 1.02, 1.01);
   EXPECT_EQ(foretold_text(right.experiment, all, {let_go, weighed}),
-            "Places at rest and frequencies of the trials held out are foretold within 5 %.");
+            "Places at rest and frequencies of the trials held out are predicted within 5 %.");
   // Of a trial that shows neither nothing is said.
   EXPECT_EQ(foretold_text(right.experiment, all, {led}), "");
 }

@@ -179,7 +179,7 @@ TEST(Simulator, WhatStartsHungHadRelaxedBeforeTheTrialsMasses) {
   EXPECT_NEAR(tip() / (weight / (1.0 - fraction)), 1.0, 5e-3);
   experiment.trials[0].masses = {{on_stem(1.0), mass}};
   EXPECT_NEAR(tip() / (weight / (1.0 - fraction) + hung), 1.0, 5e-3);
-  experiment.plant().masses = std::move(experiment.trials[0].masses);
+  experiment.plant().masses = {{on_stem(1.0), mass}};
   experiment.trials[0].masses.clear();
   EXPECT_NEAR(tip() / ((weight + hung) / (1.0 - fraction)), 1.0, 5e-3);
 }
