@@ -178,6 +178,7 @@ class Search {
     judge_baseline();
     renew_at_baseline();
     look_for_causes();
+    refit_without_each();
     conclude();
     found_.partial = stopped();
     return std::move(found_);
@@ -422,6 +423,30 @@ class Search {
                        fits.empty() ? refitted(plainer[i], base_excess) : std::move(fits[i])));
       sort_candidates();
     }
+  }
+
+  // Causes are added one by one, and the first of them may have been begun where its fit did not
+  // arrive: another one then took over what it left. So each is taken out again, with the others
+  // fitted on from where they are. What does as well with fewer is told (find_competing()).
+  void refit_without_each() {
+    if (found_.candidates.empty() || !is_enough(found_.candidates.front())) return;
+    const SceneCandidate best = found_.candidates.front();
+    const int own = static_cast<int>(best.names.size());
+    if (own < 2) return;
+    tell("taking out causes that are not needed", 0.86);
+    for (int n = 0; n < own && !stopped(); ++n) {
+      std::vector<std::string> names = best.names;
+      names.erase(names.begin() + n);
+      SceneCandidate fewer;
+      fewer.names = std::move(names);
+      // Those of the causes stand last.
+      const int at = static_cast<int>(best.fit.hypothesis.effects.size()) - own + n;
+      fewer.fit = fit(best.fit.hypothesis.without(at), how_.last_iterations, options_.trials);
+      judge(fewer);
+      found_.candidates.push_back(std::move(fewer));
+    }
+    sort_candidates();
+    keep_best_of_each();
   }
 
   void sort_candidates() {

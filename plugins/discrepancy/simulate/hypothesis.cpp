@@ -92,6 +92,14 @@ void Hypothesis::add(const Hypothesis& other) {
   }
 }
 
+Hypothesis Hypothesis::without(int effect) const {
+  Hypothesis other = *this;
+  other.effects.erase(other.effects.begin() + effect);
+  std::erase_if(other.free, [&](const FreeParameter& free) { return free.effect == effect; });
+  for (FreeParameter& free : other.free) free.effect -= free.effect > effect ? 1 : 0;
+  return other;
+}
+
 Hypothesis Hypothesis::shrunk(double share) const {
   Hypothesis result = *this;
   for (int i = 0; i < size(); ++i) {

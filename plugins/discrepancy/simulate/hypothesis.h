@@ -45,6 +45,8 @@ struct Hypothesis {
   double mesh_share() const;
   /// Adds the effects and free parameters of another one behind its own.
   void add(const Hypothesis& other);
+  /// The same without one of its effects and the effect's free parameters.
+  Hypothesis without(int effect) const;
   /// The same with its sizes brought nearer to where its effects vanish: `share` 1 changes nothing,
   /// 0 would be no effect at all; beyond 1 it may leave its bounds.
   Hypothesis shrunk(double share) const;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/core/random.h"
+#include "plugins/discrepancy/fit/causes.h"
 #include "tests/unit/discrepancy/beam_experiment.h"
 
 namespace pedicel::discrepancy {
@@ -92,6 +93,38 @@ TEST(Profile, IsOpenWhereTheDataSeeNothing) {
   const Profile found = profile(evaluator, best, 1, {{0}});
   EXPECT_TRUE(found.low.at_bound);
   EXPECT_TRUE(found.high.at_bound);
+}
+
+// Modulus and density that do nearly the same in a unit a million times as large, and a damping
+// that moves nothing.
+TEST(Covariance, IsThatOfWhatTheDataShow) {
+  FitSummary fit;
+  fit.hypothesis = baseline();
+  for (FreeParameter& free : fit.hypothesis.free) free.prior = 0.0;
+  ASSERT_EQ(fit.hypothesis.size(), 3);
+  const double unit = 1.0e6;
+  fit.jacobian.setZero(2, 3);
+  fit.jacobian.row(0) << 1.0, unit, 0.0;
+  fit.jacobian.row(1) << 0.0, 1.0e-3 * unit, 0.0;
+  const Covariance found = covariance_of(fit);
+  EXPECT_EQ(found.open, std::vector<int>{2});
+  EXPECT_TRUE(std::isinf(found.condition));
+  // Of the inverse of J: [1, -1000; 0, 1000] by units.
+  EXPECT_NEAR(found.matrix(0, 0), 1.0 + 1.0e6, 10.0);
+  EXPECT_NEAR(found.matrix(1, 1) * unit * unit, 1.0e6, 10.0);
+  EXPECT_EQ(found.matrix.col(2).norm(), 0.0);
+  // A prior shows it.
+  fit.hypothesis.free[2].prior = 0.5;
+  EXPECT_NEAR(covariance_of(fit).matrix(2, 2), 0.25, 1.0e-12);
+}
+
+TEST(Hypothesis, WithoutAnEffectKeepsTheOthersNumbers) {
+  Hypothesis model = baseline();
+  model.set_value(2, 3.0);
+  const Hypothesis fewer = model.without(1);
+  ASSERT_EQ(fewer.size(), 2);
+  EXPECT_EQ(fewer.value(0), model.value(0));
+  EXPECT_EQ(fewer.value(1), 3.0);
 }
 
 }  // namespace
