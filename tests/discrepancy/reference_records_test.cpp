@@ -273,7 +273,8 @@ TEST(RecordCases, APlateHasItsTable) {
     EXPECT_FALSE(trial.base) << trial.name;
   }
   double mass = 0.0;
-  for (const reference::Segment& segment : reference::build_tree(read.plant, {}, {}, 0.02).segments)
+  for (const reference::Segment& segment :
+       reference::build_tree(read.plant(), {}, {}, 0.02).segments)
     mass += segment.mass;
   // Let go, it carries the weight: within three deviations of a mean of 150 rows.
   ASSERT_EQ(read.trials.at(0).name, "release_1");

@@ -37,7 +37,7 @@ TrialPlan plan_of(const Trial& trial) {
   plan.duration = trial.markers.time.back();
   plan.clock = trial.clock;
   plan.gravity = trial.gravity;
-  plan.masses = trial.masses;
+  plan.masses.assign(trial.masses.begin(), trial.masses.end());
   if (trial.window)
     throw std::invalid_argument("trial \"" + trial.name +
                                 "\" begins in motion, expected one that begins at rest: what was "

@@ -139,8 +139,9 @@ class Foretelling {
         throw discrepancy::SceneFailed("trial \"" + experiment_.trials[t].name +
                                        "\" cannot be simulated to its end");
       all.push_back(course_of(readings[t], experiment_.trials[t], real[t], points));
-      Misfit sum;
-      for (const Misfit& one : data_.sums(static_cast<int>(t), readings[t])) sum += one;
+      discrepancy::Misfit sum;
+      for (const discrepancy::Misfit& one : data_.sums(static_cast<int>(t), readings[t]))
+        sum += one;
       all.back().misfit = sum.rms();
     }
     return all;
