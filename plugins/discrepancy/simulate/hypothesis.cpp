@@ -95,8 +95,8 @@ void Hypothesis::add(const Hypothesis& other) {
 Hypothesis Hypothesis::without(int effect) const {
   Hypothesis other = *this;
   other.effects.erase(other.effects.begin() + effect);
-  std::erase_if(other.free, [&](const FreeParameter& free) { return free.effect == effect; });
-  for (FreeParameter& free : other.free) free.effect -= free.effect > effect ? 1 : 0;
+  std::erase_if(other.free, [&](const FreeParameter& one) { return one.effect == effect; });
+  for (FreeParameter& one : other.free) one.effect -= one.effect > effect ? 1 : 0;
   return other;
 }
 
