@@ -70,10 +70,10 @@ std::string what_is_seen(const discrepancy::Verdict& verdict) {
 }
 
 int run(DiagnoseArguments& a, const CLI::App& verb) {
-  const discrepancy::Experiment experiment = load_all(a);
   const SearchParts parts(a.tasks, a, a.folder("diagnosis_"), verb);
   if (!a.tasks.is_task())
     a.check(a.folder("diagnosis_"), {"report.html", "verdict.json", "findings.txt"});
+  const discrepancy::Experiment experiment = load_all(a);
   if (experiment.has_robot())
     return diagnose_scene(a, experiment, a.settings, a.time_limit, parts.parts());
   discrepancy::DiagnosisOptions options;

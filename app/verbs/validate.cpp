@@ -19,6 +19,7 @@
 #include "plugins/discrepancy/admission/admission.h"
 #include "plugins/discrepancy/data/experiment.h"
 #include "plugins/discrepancy/files/experiment_files.h"
+#include "plugins/discrepancy/log_import/log_map.h"
 #include "plugins/plant/leaf_template.h"
 #include "plugins/plant/plant_builder.h"
 #include "plugins/simulation/large_plant.h"
@@ -144,6 +145,14 @@ std::string check_variation(const std::filesystem::path& path, const Options&, D
   return std::to_string(count) + (count == 1 ? " number varies" : " numbers vary");
 }
 
+std::string check_log_map(const std::filesystem::path& path, const Options&,
+                          Diagnostics& diagnostics) {
+  const auto map = discrepancy::read_log_map(path, diagnostics);
+  return map ? std::to_string(map->markers.size()) + " markers, " +
+                   std::to_string(map->wrenches.size()) + " wrench sensors"
+             : "";
+}
+
 const Kind robot_kind{"", "", "robot", check_robot};
 const Kind mtg_kind{"", ".mtg", "digitised plant", check_source(plant::SourceKind::mtg)};
 const std::array kinds = {
@@ -152,6 +161,7 @@ const std::array kinds = {
     Kind{"pedicel-scene", "", "scene", check_scene},
     Kind{"pedicel-leaf", "", "leaf template", check_leaf},
     Kind{"pedicel-variation", "", "variation", check_variation},
+    Kind{"pedicel-log-map", "", "map of a log", check_log_map},
     mtg_kind,
     Kind{"", ".ply", "skeleton", check_source(plant::SourceKind::ply_skeleton)},
     Kind{"", ".stl", "mesh", check_mesh},

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,15 @@ namespace pedicel {
 /// Texts of files in which a key of a list may stand: at "%". One for each case in which the reader
 /// asks for other keys.
 using KeyPlaces = std::map<std::string, std::vector<std::string>>;
+
+/// The lists without those of these names, which belong to another kind of the file.
+inline std::vector<const io::KeyList*> lists_without(std::vector<const io::KeyList*> lists,
+                                                     const std::set<std::string>& names) {
+  const auto left_out =
+      std::erase_if(lists, [&](const io::KeyList* list) { return names.contains(list->name); });
+  EXPECT_EQ(left_out, names.size());
+  return lists;
+}
 
 /// Expects that the reader asks for every key that is described: alone, with a value that means
 /// nothing, it is not called unknown in one of the list's places at least. `faults` reads a text as

@@ -109,7 +109,7 @@ const Case yaml_cases[] = {
     {"marker_twice", yaml,
      head + "markers: [{name: m, curve: stem, at: 1}, {name: m, curve: stem, at: 0}]\n" +
          trial(hold),
-     "4:42: error: marker \"m\" appears twice"},
+     "4:42: error: markers: \"m\" appears twice"},
     {"marker_curve", yaml, head + "markers: [{name: m, curve: twig, at: 1}]\n" + trial(hold),
      "4:28: error: curve \"twig\" is unknown, expected one of: stem"},
     {"noise_zero", yaml, head + "noise: {position_std: 0}\n" + markers + trial(hold),

@@ -33,7 +33,8 @@ TEST(ExperimentKeys, EachThatIsDescribedIsRead) {
                             {"load", {drive("kind: load, ")}},
                             {"base", {drive("kind: base, ")}}};
   expect_every_key_is_read(
-      experiment_keys(), places, [&](const std::string&, const std::string& text) {
+      lists_without(experiment_keys(), {"camera", "wrench", "follows", "moved"}), places,
+      [&](const std::string&, const std::string& text) {
         io::write_file_atomically(folder / "experiment.yaml",
                                   "format: pedicel-experiment\nversion: 1\n" + text);
         Diagnostics diagnostics;

@@ -95,8 +95,8 @@ TEST_F(SceneExperimentFiles, EveryKeyThatIsDescribedIsRead) {
                             {"follows", {"trials: [{robot: {%}}]"}},
                             {"mass", {"trials: [{masses: [{%}]}]"}},
                             {"moved", {"trials: [{plants: {bush: {%}}}]"}}};
-  expect_every_key_is_read(experiment_keys(), places,
-                           [&](const std::string&, const std::string& text) {
+  expect_every_key_is_read(lists_without(experiment_keys(), {"drive", "hold", "load", "base"}),
+                           places, [&](const std::string&, const std::string& text) {
                              at_.write("experiment.yaml", at_.head + text);
                              Diagnostics diagnostics;
                              read_experiment(at_.path(), diagnostics);

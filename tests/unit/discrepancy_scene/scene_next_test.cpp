@@ -211,7 +211,7 @@ TEST_F(MotionDesigns, LaterTrialsMustBeOfTheSamePlace) {
   EXPECT_EQ(both.trials[1].markers.value(0, 3), 1.0) << "of the second marker before";
   EXPECT_TRUE(std::isnan(both.trials[1].markers.value(0, 0)));
   more.markers[0].place.at = 0.3;
-  EXPECT_THAT(refusal(more), HasSubstr("is not what it was before"));
+  EXPECT_THAT(refusal(more), HasSubstr("sits elsewhere than before"));
   more = first;
   more.trials[0].name = "again";
   more.plants[0].file.curves[0].points[1].x() += 0.01;

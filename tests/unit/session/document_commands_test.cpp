@@ -62,7 +62,7 @@ TEST_F(Edits, TheLookIsSaidAndNothingElseChanges) {
   run("set plant look p tomato");
   EXPECT_EQ(plant().look, plant::Look::tomato);
   EXPECT_THAT(refusal("set plant look p pear"),
-              HasSubstr("look \"pear\", expected tomato or apple"));
+              HasSubstr("look \"pear\", expected one of: tomato, apple"));
 }
 
 TEST_F(Edits, SmoothingMovesInnerPointsOnly) {
