@@ -156,9 +156,6 @@ class Screen {
     for (std::size_t s = 0; s < starts_.size(); ++s)
       if (starts_[s].is_bare) by_cost.emplace(cost_by_size(all_.col(starts_[s].at)), s);
     const SceneSearchSettings& how = evaluator_.settings().search;
-    const double excess = SceneDataSet::beyond_noise(base_.misfit());
-    // Where no cause could gain enough, detectable limits are all that is wanted.
-    if (excess * excess < how.least_gain) return;
     std::map<std::string, int> of_cause;
     std::vector<std::size_t> best;
     for (const auto& [cost, s] : by_cost)
@@ -370,6 +367,10 @@ std::vector<ScreenedCause> screen_causes(SceneEvaluator& evaluator, const FitSum
       if (!in_base) screen.add(definition.name, start);
     }
   }
+  // Where no cause could gain enough, ninety more simulations of each trial would tell nothing but
+  // detectable limits of plants' own effects.
+  const double excess = SceneDataSet::beyond_noise(base.misfit());
+  if (excess * excess < evaluator.settings().search.least_gain) return screen.run(seen);
   for (const SceneFit& start : plant_starts(experiment, base.hypothesis.effects))
     if (std::ranges::find(has, start.effect.name) == has.end())
       screen.add_bare(start.effect.name, start);
