@@ -27,7 +27,8 @@ std::vector<int> order_of(const Experiment& more, const std::string& what,
     const auto found = std::ranges::find(theirs, one.name, &Item::name);
     order.push_back(found == theirs.end() ? -1 : static_cast<int>(found - theirs.begin()));
     if (found != theirs.end() && !alike(one, *found))
-      refuse(more, what + " \"" + one.name + "\" " + differs);
+      refuse(more,
+             std::string(what).append(" ").append(in_quotes(one.name)).append(" ").append(differs));
   }
   for (const Item& one : theirs)
     if (std::ranges::find(own, one.name, &Item::name) == own.end())
@@ -69,6 +70,7 @@ bool drawn_alike(const ExperimentPlant& a, const ExperimentPlant& b) {
 std::vector<Samples> of_instruments(const std::vector<Samples>& tables,
                                     const std::vector<int>& order) {
   std::vector<Samples> sorted;
+  sorted.reserve(order.size());
   for (const int at : order)
     sorted.push_back(at < 0 ? Samples{} : tables[static_cast<std::size_t>(at)]);
   return sorted;

@@ -185,6 +185,7 @@ std::string experiment_text(const Experiment& experiment, const fs::path& model)
 std::vector<std::string> columns_of(const Experiment& experiment, const std::vector<int>& columns) {
   const std::vector<std::string> all = joint_names(experiment.robot);
   std::vector<std::string> names;
+  names.reserve(columns.size());
   for (const int column : columns) names.push_back(all[static_cast<std::size_t>(column)]);
   return names;
 }
@@ -221,9 +222,8 @@ fs::path write_scene(const fs::path& folder, const Experiment& experiment) {
   const fs::path home = files.front().parent_path(), common = io::common_folder(files);
   // A scene that lies beside or above what it names keeps its place in the folder. Around any other
   // one the folders are made as they are where it comes from.
-  const fs::path scene = common == home
-                             ? experiment.scene_path
-                             : fs::path("model") / files.front().lexically_relative(common);
+  fs::path scene = common == home ? experiment.scene_path
+                                  : fs::path("model") / files.front().lexically_relative(common);
   if (scene.is_absolute() || *scene.lexically_normal().begin() == "..")
     throw UsageError("the scene " + scene.string() +
                      " is outside of its experiment, expected it in the folder");
