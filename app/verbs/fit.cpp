@@ -27,7 +27,8 @@ struct FitArguments : ExperimentArguments {
 
 int run(FitArguments& a, const CLI::App& verb) {
   const SearchParts parts(a.tasks, a, a.folder("fit_"), verb);
-  if (!a.tasks.is_task()) a.check(a.folder("fit_"), {"fit.json"});
+  if (!a.tasks.is_task())
+    a.check(a.folder("fit_"), {"fit.json", "fitted.plant.yaml", "extended.scene.yaml"});
   const discrepancy::Experiment experiment = load_experiment(a.experiment);
   const bool robot = experiment.has_robot();
   const auto starts = discrepancy::requested_starts(

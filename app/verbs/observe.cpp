@@ -195,7 +195,9 @@ std::string format_of(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file)) return "pedicel-experiment";
   Diagnostics diagnostics;
   const io::YamlNode root = io::load_yaml(file, diagnostics);
-  return root.is_map() && root.raw()["format"] ? root.raw()["format"].Scalar() : "";
+  if (!root.is_map()) return {};
+  const YAML::Node format = root.raw()["format"];
+  return format.IsDefined() && format.IsScalar() ? format.Scalar() : std::string{};
 }
 
 std::filesystem::path scene_of(const std::filesystem::path& model) {
@@ -204,10 +206,10 @@ std::filesystem::path scene_of(const std::filesystem::path& model) {
 
 int observe_verb(const ObserveArguments& a) {
   io::check_output_folder(a.out, {"experiment.yaml", "plant.yaml"});
-  Experiment experiment = load_experiment(a.like);
-  experiment = experiment.has_robot()
-                   ? observed_scene(a, load_experiment(a.like, scene_of(a.model)))
-                   : observed(a, std::move(experiment));
+  // The scene of `like` itself is not looked at, where it has one; a single plant has none.
+  Experiment experiment = load_experiment(a.like, scene_of(a.model));
+  experiment =
+      experiment.has_robot() ? observed_scene(a, experiment) : observed(a, std::move(experiment));
   stop_in_good_order();
   const std::string replaced = io::write_folder(a.out, [&](const std::filesystem::path& in) {
     discrepancy::write_experiment(in, experiment);

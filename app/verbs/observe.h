@@ -43,7 +43,8 @@ int observe_verb(const ObserveArguments& arguments);
 /// `like` has no sample at all, it is a plan, and all of it is filled.
 discrepancy::Experiment observed(const ObserveArguments& arguments, discrepancy::Experiment like);
 
-/// What a file says of itself, "pedicel-scene" and its like; of a folder, that it is an experiment.
+/// What `format:` of a file says, "pedicel-scene" and its like, empty where it is no YAML map that
+/// has it; of a folder, that it is an experiment.
 /// Throws InvalidFile.
 std::string format_of(const std::filesystem::path& file);
 

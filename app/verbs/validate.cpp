@@ -185,15 +185,6 @@ std::string expected_kinds() {
   return list + ", " + robot::robot_formats() + ", a table (.csv) or a script of commands";
 }
 
-/// What `format:` says; empty where the file is no YAML map that has it.
-std::string format_of(const std::filesystem::path& path) {
-  Diagnostics unused;
-  const io::YamlNode root = io::load_yaml(path, unused);
-  if (!root.is_map()) return {};
-  const YAML::Node format = root.raw()["format"];
-  return format.IsDefined() && format.IsScalar() ? format.Scalar() : std::string{};
-}
-
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
