@@ -311,7 +311,8 @@ class Screen {
               : free.vanishes == Vanishes::at_infinity ? 1.0 / value
                                                        : std::abs(value - free.nominal);
       }
-      if (const double size = clear_of_base(change); size > 0.0)
+      // A component that is zero where the start has others says nothing of how large it would be.
+      if (const double size = clear_of_base(change); size > 0.0 && way > 0.0)
         // Of a vector the clearest component stands for it.
         out.a_unit = std::min(out.a_unit, way / size);
     }
